@@ -1,0 +1,173 @@
+"""Blocks of samples on disk: one netCDF file per (point, block of seeds), and what its names mean.
+
+A block is a dictionary of arrays. `VARIABLES` is the one table of names: dimensions, units,
+long name. Writing is atomic (temporary name, then rename) and the bytes depend on nothing but
+the content, so that a resumed study ends with the same files as an unbroken one.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import netCDF4
+import numpy as np
+
+
+class Variable(NamedTuple):
+    """One row of the table of names."""
+
+    dimensions: tuple[str, ...]
+    dtype: str
+    units: str
+    long_name: str
+
+
+BLOCK = ("seed",)
+FORCE = "k_N d^(3/2)"
+MODULUS = "k_N d^(1/2)"
+
+VARIABLES: dict[str, Variable] = {
+    # coordinates
+    "seed": Variable(("seed",), "i8", "1", "seed of the random placement"),
+    "n": Variable(("n",), "i8", "1", "number of grains"),
+    "phi": Variable(("phi",), "f8", "1", "projected area fraction"),
+    "kt": Variable(("kt",), "f8", "k_N", "tangential stiffness k_T / k_N"),
+    "mode": Variable(("mode",), "i8", "1", "rank of a mode, eigenvalues ascending"),
+    # packing
+    "position": Variable(("seed", "grain", "axis"), "f8", "d", "grain position in [0, L), (x, y)"),
+    "fraction": Variable(
+        ("seed", "grain", "axis"),
+        "i8",
+        "2^-64 L",
+        "grain position as an integer fraction of the box: the exact state",
+    ),
+    "diameter": Variable(("seed", "grain"), "f8", "d", "grain diameter"),
+    "mass": Variable(("seed", "grain"), "f8", "m", "grain mass"),
+    "box_length": Variable(BLOCK, "f8", "d", "side L of the periodic square box"),
+    "strain": Variable(BLOCK, "f8", "1", "shear strain of the Lees-Edwards box"),
+    "rotation": Variable(("seed", "grain"), "f8", "d", "rotation coordinate l = d theta / 2"),
+    "contact_i": Variable(("seed", "contact"), "i4", "1", "grain i of a contact, i > j; -1: none"),
+    "contact_j": Variable(("seed", "contact"), "i4", "1", "grain j of a contact; -1: none"),
+    "tangential_displacement": Variable(
+        ("seed", "contact"), "f8", "d", "signed tangential displacement s of a contact"
+    ),
+    "pressure": Variable(BLOCK, "f8", MODULUS, "pressure (sigma_xx + sigma_yy) / -2"),
+    "contact_number": Variable(
+        BLOCK, "f8", "1", "mean number of contacts of a grain that is no rattler"
+    ),
+    "rattler_count": Variable(BLOCK, "i8", "1", "number of rattlers"),
+    "phi_jamming": Variable(
+        BLOCK, "f8", "1", "highest phi of the trajectory so far at which it was not jammed"
+    ),
+    # how a sample came out
+    "converged": Variable(BLOCK, "i1", "1", "1 if the requested accuracy was reached, else 0"),
+    "jammed": Variable(BLOCK, "i1", "1", "1 if a rigid backbone carries the load, else 0"),
+    "max_force": Variable(BLOCK, "f8", FORCE, "largest force component left on a grain"),
+    "max_torque": Variable(BLOCK, "f8", FORCE, "largest scaled torque 2 T / d left on a grain"),
+    "iterations": Variable(BLOCK, "i8", "1", "iterations of the relaxation"),
+    # rigidity, theory
+    "g": Variable(BLOCK, "f8", MODULUS, "rigidity under an unloaded step strain"),
+    "g_affine": Variable(BLOCK, "f8", MODULUS, "affine part of g"),
+    "g_nonaffine": Variable(BLOCK, "f8", MODULUS, "non-affine part of g"),
+    "g_loaded": Variable(BLOCK, "f8", MODULUS, "rigidity, tangential springs loaded affinely"),
+    "g_affine_loaded": Variable(BLOCK, "f8", MODULUS, "affine part of g_loaded"),
+    "g_nonaffine_loaded": Variable(BLOCK, "f8", MODULUS, "non-affine part of g_loaded"),
+    # rigidity, simulation
+    "g_simulated": Variable(BLOCK, "f8", MODULUS, "rigidity from a relaxed step strain"),
+    "contact_changes": Variable(
+        BLOCK, "i8", "1", "contacts opened or closed by the relaxed step strain"
+    ),
+    # spectrum
+    "eigenvalue": Variable(
+        ("seed", "mode"), "f8", "k_N d^(1/2)", "eigenvalue of the Jacobian, ascending; NaN: no mode"
+    ),
+    "psi_rotational": Variable(("seed", "mode"), "f8", "1", "rotational fraction psi^R of a mode"),
+    "participation_ratio": Variable(("seed", "mode"), "f8", "1", "participation ratio p of a mode"),
+    "residual": Variable(BLOCK, "f8", "k_N d^(1/2)", "largest eigenpair residual |J v - lambda v|"),
+    "mode_count": Variable(BLOCK, "i8", "1", "number of modes: degrees of freedom of the backbone"),
+}
+"""Every name that a block or an ensemble may hold."""
+
+
+class BlockError(Exception):
+    """A file that is not a readable block; the message says which file and why."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """Arrays by name, and the attributes that say where they come from."""
+
+    variables: dict[str, np.ndarray]
+    attributes: dict[str, object]
+
+
+def write_block(path: str | Path, block: Block) -> None:
+    """Write a block: all of it or nothing.
+
+    `block.variables` maps names of `VARIABLES` to arrays with those dimensions. Attribute values
+    are numbers, text, or dictionaries (stored as sorted JSON).
+
+    Raises:
+        KeyError: a name is not in `VARIABLES`.
+        ValueError: two arrays disagree about the length of a dimension.
+        OSError: the file cannot be written; nothing is left under `path`.
+    """
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    try:
+        with netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
+            _write(file, block)
+        os.replace(partial, path)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def _write(file: netCDF4.Dataset, block: Block) -> None:
+    for name, value in sorted(block.attributes.items()):
+        file.setncattr(
+            name, json.dumps(value, sort_keys=True) if isinstance(value, dict) else value
+        )
+    for name, array in block.variables.items():
+        row = VARIABLES[name]
+        array = np.asarray(array, dtype=row.dtype)
+        for dimension, length in zip(row.dimensions, array.shape, strict=True):
+            if dimension not in file.dimensions:
+                file.createDimension(dimension, length)
+            elif len(file.dimensions[dimension]) != length:
+                raise ValueError(
+                    f"{name}: dimension {dimension} has length {length}, "
+                    f"elsewhere {len(file.dimensions[dimension])}"
+                )
+        compressed = {"zlib": True, "complevel": 1, "shuffle": True} if array.ndim > 1 else {}
+        variable = file.createVariable(name, row.dtype, row.dimensions, **compressed)
+        variable.units = row.units
+        variable.long_name = row.long_name
+        variable[...] = array
+
+
+def read_block(path: str | Path) -> Block:
+    """Read a block whole.
+
+    Raises:
+        BlockError: no such file, not netCDF, truncated, or without the `seed` dimension.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise BlockError(f"{path}: no such file")
+    try:
+        with netCDF4.Dataset(path) as file:
+            file.set_auto_mask(False)
+            variables = {name: variable[...] for name, variable in file.variables.items()}
+            attributes = {name: file.getncattr(name) for name in file.ncattrs()}
+    except (OSError, RuntimeError) as error:
+        raise BlockError(
+            f"{path}: not a readable netCDF file, or a truncated one ({error})"
+        ) from error
+    if "seed" not in variables:
+        raise BlockError(f"{path}: holds no variable 'seed', so it is not a block of samples")
+    return Block(variables, attributes)

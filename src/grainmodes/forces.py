@@ -1,0 +1,61 @@
+"""Net forces, stress and pressure of a packing from its contacts.
+
+    F_i = Σ_j f_ij,   scaled torque 2 T_i / d_i = Σ_j f_T,ij          A (3)–(5), J of physics: F̃_i
+    σ_αβ = −(1/L²) Σ_{i<j} f^α_ij r^β_ij                              A (14)
+
+Frictionless interactions give (N, 2) arrays: torque does not exist.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes.kernels.contacts import contact_forces, normal_forces
+from grainmodes.kernels.laws import Frictionless, Interaction
+from grainmodes.packing import Contacts, Packing
+
+
+def is_frictionless(interaction: Interaction) -> bool:
+    """Whether rotation, torque and history exist."""
+    return isinstance(interaction.tangential, Frictionless)
+
+
+def forces_on_i(contacts: Contacts, interaction: Interaction) -> np.ndarray:
+    """Force of every contact on its grain i, k_N d^(3/2): (C, 2), or (C, 3) with f_T last."""
+    if is_frictionless(interaction):
+        return normal_forces(interaction, contacts.normal, contacts.overlap)
+    return contact_forces(interaction, contacts.normal, contacts.overlap, contacts.displacement)
+
+
+def net_force(packing: Packing, contacts: Contacts, interaction: Interaction) -> np.ndarray:
+    """F̃ on every grain: (N, 2) frictionless, else (N, 3) = (F_x, F_y, 2 T/d), in k_N d^(3/2)."""
+    forces = forces_on_i(contacts, interaction)
+    columns = []
+    for axis in range(forces.shape[1]):
+        on_j = -1.0 if axis < 2 else 1.0
+        total = np.bincount(contacts.i, forces[:, axis], packing.n)
+        columns.append(total + on_j * np.bincount(contacts.j, forces[:, axis], packing.n))
+    return np.stack(columns, axis=1)
+
+
+def largest(force: np.ndarray) -> tuple[float, float]:
+    """(max |F|, max scaled |torque|) over grains and components; torque is 0 without friction."""
+    if len(force) == 0:
+        return 0.0, 0.0
+    torque = float(np.abs(force[:, 2]).max()) if force.shape[1] == 3 else 0.0
+    return float(np.abs(force[:, :2]).max()), torque
+
+
+def stress(packing: Packing, contacts: Contacts, interaction: Interaction) -> np.ndarray:
+    """σ_αβ, shape (2, 2), in k_N d^(1/2)."""
+    branch = contacts.normal * contacts.distance[:, None]
+    forces = forces_on_i(contacts, interaction)[:, :2]
+    return -(forces.T @ branch) / packing.box_length**2
+
+
+def mean_contact_force(contacts: Contacts, interaction: Interaction) -> float:
+    """Mean magnitude of the contact forces; 0 without contacts."""
+    if len(contacts.i) == 0:
+        return 0.0
+    forces = forces_on_i(contacts, interaction)
+    return float(np.hypot(forces[:, 0], forces[:, 1]).mean())

@@ -1,0 +1,58 @@
+"""The Jacobian J = −∂F̃/∂q, sparse, for any law and any tangential displacement: A (18).
+
+Every contact contributes its stiffness K (kernels/contacts.py) four times, with the signs by which
+the relative coordinates d r⃗ = d r⃗_i − d r⃗_j, dℓ = dℓ_i + dℓ_j hang on the two grains and by which
+the force on i becomes the force on j:
+
+    J_ii ← −K,   J_ij ← −K·diag(−,−,+),   J_ji ← −diag(−,−,+)·K,   J_jj ← −diag(−,−,+)·K·diag(−,−,+)
+
+Degrees of freedom are ordered (x, y, ℓ) grain by grain; (x, y) where friction does not exist.
+J is symmetric exactly when every s = 0; otherwise it may have complex pairs of eigenvalues.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.sparse as sparse
+
+from grainmodes.forces import is_frictionless
+from grainmodes.kernels.contacts import contact_stiffness, normal_stiffness
+from grainmodes.kernels.laws import Interaction
+from grainmodes.packing import Contacts, Packing
+
+SIGNS = np.array([-1.0, -1.0, 1.0])
+"""How (x, y, ℓ) of grain j enter the relative coordinates and the force."""
+
+
+def stiffness_of(contacts: Contacts, interaction: Interaction) -> np.ndarray:
+    """K of every contact: (C, 3, 3), or (C, 2, 2) without friction."""
+    if is_frictionless(interaction):
+        return normal_stiffness(interaction, contacts.normal, contacts.distance, contacts.overlap)
+    return contact_stiffness(
+        interaction,
+        contacts.normal,
+        contacts.distance,
+        contacts.overlap,
+        contacts.displacement,
+    )
+
+
+def jacobian(packing: Packing, contacts: Contacts, interaction: Interaction) -> sparse.csc_array:
+    """J of a packing, (kN, kN) with k = 3, or 2 without friction, in k_N d^(1/2)."""
+    return assemble(stiffness_of(contacts, interaction), contacts.i, contacts.j, packing.n)
+
+
+def assemble(stiffness: np.ndarray, i: np.ndarray, j: np.ndarray, n: int) -> sparse.csc_array:
+    """The sparse matrix of contact stiffnesses (C, k, k) between grains i and j."""
+    k = stiffness.shape[1]
+    rows, columns = SIGNS[:k, None], SIGNS[None, :k]
+    blocks = -np.concatenate(
+        [stiffness, stiffness * columns, stiffness * rows, stiffness * rows * columns]
+    )
+    left = np.concatenate([i, i, j, j]).astype(np.int32) * k
+    right = np.concatenate([i, j, i, j]).astype(np.int32) * k
+    within = np.arange(k, dtype=np.int32)
+    row = np.broadcast_to(left[:, None, None] + within[:, None], blocks.shape)
+    column = np.broadcast_to(right[:, None, None] + within[None, :], blocks.shape)
+    entries = (blocks.ravel(), (row.ravel(), column.ravel()))
+    return sparse.coo_array(entries, shape=(k * n, k * n)).tocsc()
