@@ -8,12 +8,6 @@ Rows and columns are (x, y, ℓ) with relative coordinates d r⃗ = d r⃗_i −
 
 The last term of the first block, the rotation of the tangent, is missing in A (App. D, F) and
 B (App. D3); A's (F6), (F12), (F24), (F30) put −∂f_T/∂ξ nᵀ into the transposed place.
-
-Affine force rates for the displacement A = (r_y, 0) of a step strain (physical derivation: the jump
-moves the grains but does not load the tangential springs; `loaded` adds what loading does):
-
-    a   = −f_N' n (n·A) + (f_N/r) t (t·A) − ∂f_T/∂ξ t (n·A) − (f_T/r) n (t·A)   [+ ∂f_T/∂s t (t·A)]
-    a_ℓ = −∂f_T/∂ξ (n·A)                                                        [+ ∂f_T/∂s (t·A)]
 """
 
 from __future__ import annotations
@@ -90,14 +84,3 @@ def normal_stiffness(interaction, normal, distance, overlap):
         stiffness[c, 1, 0] = stiffness[c, 0, 1]
     return stiffness
 
-
-@kernel
-def spring_loading(interaction, normal, overlap, displacement):
-    """∂f_T/∂s and t of every contact: what an affine loading of the springs adds; (C,)."""
-    rate = np.empty(overlap.shape[0])
-    for c in range(overlap.shape[0]):
-        _, by_s, _ = tangential_response(
-            interaction.tangential, interaction.normal, overlap[c], displacement[c]
-        )
-        rate[c] = by_s
-    return rate

@@ -1,0 +1,121 @@
+"""Rigidity from one sparse solve: A, Sec. III B, with the signs and terms of the forces.
+
+    g = dσ_xy/dγ,   σ_αβ = −(1/L²) Σ f^α r^β                              A (14)–(16)
+    J u = Σ a        force balance after an affine step A = (r_y, 0)       A (31), (34)
+    g_αβ = −(1/L²) Σ [ (a + K δu)_α r_β + f_α A_β ]                        A (39)–(41)
+
+with δu the relative displacement of the contact, (u_i − u_j, ℓ_i + ℓ_j). The affine force rate is
+
+    loaded     a = K (A, 0)           the springs feel the affine motion, as under continuous shear
+    unloaded   a = K (A, −t·A)        they do not (A's step strain): ds = t·A + dℓ = 0
+
+so that the two differ only in which rotation accompanies the affine step. The f_α A_β term makes
+g_yx differ from g_xy by σ_yy; B (43) drops it. Printed A (36)–(37), (40), (44)–(46) do not follow
+from the forces: J̃ breaks translation invariance and the sign of g_A comes out negative.
+
+| symbol     | name       |   | symbol    | name           |
+| ---------- | ---------- | - | --------- | -------------- |
+| A          | affine     |   | u         | nonaffine      |
+| a          | rate       |   | g_A, g_NA | affine, nonaffine of `Moduli` |
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from grainmodes.forces import forces_on_i, is_frictionless
+from grainmodes.jacobian import SIGNS, assemble, stiffness_of
+from grainmodes.kernels.laws import Interaction
+from grainmodes.linear import PinnedFactor
+from grainmodes.packing import Contacts, Packing, find_contacts, rattlers
+
+
+@dataclass(frozen=True)
+class Moduli:
+    """dσ_αβ/dγ, each (2, 2) in k_N d^(1/2), and the non-affine field per unit strain, (N, k) in d."""
+
+    affine: np.ndarray
+    nonaffine: np.ndarray
+    displacement: np.ndarray
+
+    @property
+    def g_affine(self) -> float:
+        """g_A of σ_xy."""
+        return float(self.affine[0, 1])
+
+    @property
+    def g_nonaffine(self) -> float:
+        """g_NA of σ_xy."""
+        return float(self.nonaffine[0, 1])
+
+    @property
+    def g(self) -> float:
+        """g = g_A + g_NA of σ_xy."""
+        return self.g_affine + self.g_nonaffine
+
+
+@dataclass(frozen=True)
+class Rigidity:
+    """Moduli under the two protocols; the same object twice where friction does not exist."""
+
+    unloaded: Moduli
+    loaded: Moduli
+
+
+def rigidity(packing: Packing, interaction: Interaction, threshold: int = 2) -> Rigidity:
+    """g of a packing in force balance, without its rattlers (at most `threshold` contacts).
+
+    The displacement field refers to the packing without rattlers.
+
+    Raises:
+        FloppyError: the backbone has zero modes beyond the translations.
+    """
+    gone = rattlers(find_contacts(packing), packing.n, threshold)
+    backbone = packing.without(gone) if gone.any() else packing
+    contacts = find_contacts(backbone)
+    stiffness = stiffness_of(contacts, interaction)
+    matrix = assemble(stiffness, contacts.i, contacts.j, backbone.n)
+    factor = PinnedFactor(matrix, symmetric=contacts.tangential_displacement is None)
+    loaded = _moduli(backbone, contacts, interaction, stiffness, factor, True)
+    if is_frictionless(interaction):
+        return Rigidity(loaded, loaded)
+    return Rigidity(_moduli(backbone, contacts, interaction, stiffness, factor, False), loaded)
+
+
+def _moduli(packing, contacts, interaction, stiffness, factor, loaded: bool) -> Moduli:
+    """One protocol: affine rate, non-affine response, both stress rates."""
+    branch = contacts.normal * contacts.distance[:, None]
+    affine = affine_displacement(contacts, stiffness.shape[1], loaded)
+    rate = np.einsum("cab,cb->ca", stiffness, affine)
+    u = factor.solve(net_rate(contacts, rate, packing.n)).reshape(packing.n, -1)
+    u[:, :2] -= u[:, :2].mean(axis=0)
+    response = np.einsum("cab,cb->ca", stiffness, relative(contacts, u))
+    carried = forces_on_i(contacts, interaction)[:, :2].T @ affine[:, :2]
+    area = packing.box_length**2
+    return Moduli(
+        -(rate[:, :2].T @ branch + carried) / area, -(response[:, :2].T @ branch) / area, u
+    )
+
+
+def affine_displacement(contacts: Contacts, k: int, loaded: bool) -> np.ndarray:
+    """Relative displacement of every contact per unit affine strain, (C, k): (r_y, 0[, dℓ])."""
+    affine = np.zeros((len(contacts.i), k))
+    affine[:, 0] = contacts.normal[:, 1] * contacts.distance
+    if k == 3 and not loaded:
+        affine[:, 2] = -contacts.tangent[:, 0] * affine[:, 0]
+    return affine
+
+
+def relative(contacts: Contacts, u: np.ndarray) -> np.ndarray:
+    """δu = (u_i − u_j, ℓ_i + ℓ_j) of every contact from a field u (N, k)."""
+    return u[contacts.i] + SIGNS[: u.shape[1]] * u[contacts.j]
+
+
+def net_rate(contacts: Contacts, rate: np.ndarray, n: int) -> np.ndarray:
+    """Σ over contacts of the force rates on both grains, (N, k)."""
+    total = np.zeros((n, rate.shape[1]))
+    np.add.at(total, contacts.i, rate)
+    np.add.at(total, contacts.j, rate * SIGNS[: rate.shape[1]])
+    return total
