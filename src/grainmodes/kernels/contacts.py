@@ -84,3 +84,12 @@ def normal_stiffness(interaction, normal, distance, overlap):
         stiffness[c, 1, 0] = stiffness[c, 0, 1]
     return stiffness
 
+
+
+@kernel
+def normal_slope(normal, overlap):
+    """∂f_N/∂ξ of every contact; (C,)."""
+    slope = np.empty(overlap.shape[0])
+    for c in range(overlap.shape[0]):
+        slope[c] = normal_response(normal, overlap[c])[1]
+    return slope

@@ -1,0 +1,1 @@
+"""Ways to force balance behind one interface: each returns a `Relaxed`."""
