@@ -8,13 +8,16 @@ the content, so that a resumed study ends with the same files as an unbroken one
 from __future__ import annotations
 
 import json
-import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
 import netCDF4
 import numpy as np
+
+from grainmodes.atomic import replaced
 
 
 class Variable(NamedTuple):
@@ -77,7 +80,21 @@ VARIABLES: dict[str, Variable] = {
     "g_affine_loaded": Variable(BLOCK, "f8", MODULUS, "affine part of g_loaded"),
     "g_nonaffine_loaded": Variable(BLOCK, "f8", MODULUS, "non-affine part of g_loaded"),
     # rigidity, simulation
-    "g_simulated": Variable(BLOCK, "f8", MODULUS, "rigidity from a relaxed step strain"),
+    "g_simulated": Variable(
+        BLOCK, "f8", MODULUS, "rigidity from step strains to both sides, relaxed"
+    ),
+    "g_simulated_forward": Variable(
+        BLOCK, "f8", MODULUS, "rigidity from the forward step strain alone (paper A)"
+    ),
+    "iterations_simulated": Variable(
+        BLOCK, "i8", "1", "iterations of the relaxation of the step strains"
+    ),
+    "max_force_simulated": Variable(
+        BLOCK, "f8", FORCE, "largest force component left after the step strains"
+    ),
+    "max_torque_simulated": Variable(
+        BLOCK, "f8", FORCE, "largest scaled torque 2 T / d left after the step strains"
+    ),
     "contact_changes": Variable(
         BLOCK, "i8", "1", "contacts opened or closed by the relaxed step strain"
     ),
@@ -116,15 +133,22 @@ def write_block(path: str | Path, block: Block) -> None:
         ValueError: two arrays disagree about the length of a dimension.
         OSError: the file cannot be written; nothing is left under `path`.
     """
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    with new_file(path) as file:
+        _write(file, block)
+
+
+@contextmanager
+def new_file(path: str | Path) -> Iterator[netCDF4.Dataset]:
+    """A netCDF file to write into, which stands under `path` only once it is whole.
+
+    Raises:
+        OSError: the file cannot be written; whatever stood under `path` is untouched.
+    """
     try:
-        with netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
-            _write(file, block)
-        os.replace(partial, path)
-    finally:
-        partial.unlink(missing_ok=True)
+        with replaced(path) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
+            yield file
+    except RuntimeError as error:
+        raise OSError(f"{path}: cannot be written; is the disk full? ({error})") from error
 
 
 def _write(file: netCDF4.Dataset, block: Block) -> None:

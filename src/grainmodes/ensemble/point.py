@@ -1,0 +1,130 @@
+"""All blocks of seeds and all observables of one point (n, phi, k_T), merged sample by sample.
+
+Each seed that stands in any block becomes one row, in the order of the seeds. A number is kept if
+there is one, or one per mode, in a sample; coordinates of grains stay in the packings.
+A sample is converged when every observable of the point has it converged; a seed that an
+observable lacks has there NaN (integers: 0), hence also converged = 0. Where two observables hold
+a name both, the first in the order of `STAGES` wins.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from grainmodes.dataset import VARIABLES, Block, BlockError, read_block
+
+STAGES = ("packings", "rigidity", "step_strain", "spectrum")
+"""Values of the attribute `stage`, in the order in which names win."""
+
+PER_SAMPLE = (("seed",), ("seed", "mode"))
+"""Dimensions of the variables that a point keeps."""
+
+
+def gather_point(paths: list[str | Path]) -> Block:
+    """The blocks of one point, read and merged.
+
+    Raises:
+        BlockError: a file is no block, the files belong to different points or parameters, or a
+            seed occurs twice in an observable.
+    """
+    return merge_blocks({str(path): read_block(path) for path in paths})
+
+
+def merge_blocks(blocks: dict[str, Block]) -> Block:
+    """Blocks of one point as one block of attribute stage = "point".
+
+    Args:
+        blocks: name for messages → block, in any order.
+
+    Raises:
+        BlockError: as `gather_point`.
+    """
+    stages = _by_stage(blocks)
+    seeds = np.unique(np.concatenate([block.variables["seed"] for block in blocks.values()]))
+    variables = {"seed": seeds, "converged": np.ones(len(seeds), dtype=np.int8)}
+    for members in stages.values():
+        aligned = _aligned(members, seeds)
+        variables["converged"] &= aligned["converged"]
+        for name, rows in aligned.items():
+            variables.setdefault(name, rows)
+    return Block(variables, _attributes(blocks, stages))
+
+
+def _by_stage(blocks: dict[str, Block]) -> dict[str, dict[str, Block]]:
+    found: dict[str, dict[str, Block]] = {stage: {} for stage in STAGES}
+    for name, block in blocks.items():
+        stage = block.attributes.get("stage")
+        if stage not in STAGES:
+            raise BlockError(
+                f"{name}: attribute stage is {stage!r}, allowed are {', '.join(STAGES)}"
+            )
+        found[stage][name] = block
+    return {stage: _in_seed_order(stage, members) for stage, members in found.items() if members}
+
+
+def _in_seed_order(stage: str, members: dict[str, Block]) -> dict[str, Block]:
+    owner: dict[int, str] = {}
+    for name, block in members.items():
+        for seed in block.variables["seed"].tolist():
+            if seed in owner:
+                raise BlockError(f"{name}: {stage} of seed {seed} also stands in {owner[seed]}")
+            owner[seed] = name
+    return dict(sorted(members.items(), key=lambda item: item[1].variables["seed"].min()))
+
+
+def _aligned(members: dict[str, Block], seeds: np.ndarray) -> dict[str, np.ndarray]:
+    """The variables of one observable, one row per seed of the point."""
+    rows: dict[str, np.ndarray] = {}
+    for block in members.values():
+        place = np.searchsorted(seeds, block.variables["seed"])
+        for name, array in block.variables.items():
+            if name != "seed" and VARIABLES[name].dimensions in PER_SAMPLE:
+                empty = np.nan if array.dtype.kind == "f" else 0
+                shape = (len(seeds), *array.shape[1:])
+                rows.setdefault(name, np.full(shape, empty, array.dtype))[place] = array
+    return rows
+
+
+def _attributes(blocks: dict[str, Block], stages: dict[str, dict[str, Block]]) -> dict[str, object]:
+    versions = {str(block.attributes.get("code_version", "unknown")) for block in blocks.values()}
+    return {
+        "title": "Samples of one point, all observables",
+        "stage": "point",
+        **{name: _shared(name, blocks) for name in ("n", "phi", "kt")},
+        "code_version": ", ".join(sorted(versions)),
+        "config": {stage: _decoded(_shared("config", of)) for stage, of in stages.items()},
+        "failures": _failures(stages),
+    }
+
+
+def _shared(attribute: str, blocks: dict[str, Block]) -> object:
+    """The one value of an attribute in all blocks that have it."""
+    values = {
+        name: block.attributes[attribute]
+        for name, block in blocks.items()
+        if attribute in block.attributes
+    }
+    if not values:
+        raise BlockError(f"{', '.join(blocks)}: no block has the attribute {attribute}")
+    (first, value), *others = values.items()
+    for name, other in others:
+        if other != value:
+            raise BlockError(f"{name}: {attribute} is {other}, but {value} in {first}")
+    return value
+
+
+def _decoded(text: object) -> object:
+    return json.loads(text) if isinstance(text, str) else text
+
+
+def _failures(stages: dict[str, dict[str, Block]]) -> dict[str, str]:
+    """Seed → what failed, in every observable."""
+    sentences: dict[str, list[str]] = {}
+    for stage, members in stages.items():
+        for block in members.values():
+            for seed, sentence in _decoded(block.attributes.get("failures", "{}")).items():
+                sentences.setdefault(seed, []).append(f"{stage}: {sentence}")
+    return {seed: "; ".join(parts) for seed, parts in sentences.items()}

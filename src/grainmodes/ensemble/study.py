@@ -1,0 +1,148 @@
+"""All points of a study in one file with dimensions (n, phi, kt, seed, mode).
+
+Points are written one after the other, so the memory needed is that of one point whatever the size
+of the study; a spectrum is one chunk. What a point lacks, or a point that the grid lacks, is NaN;
+integers have the fill value -1, which xarray shows as NaN. The bytes depend neither on the order
+of the points nor on the time.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import netCDF4
+import numpy as np
+
+from grainmodes.dataset import VARIABLES, Block, BlockError, new_file, read_block
+
+GRID = ("n", "phi", "kt")
+INTEGER_FILL = -1
+
+
+class Layout(NamedTuple):
+    """What the file has room for: values of the coordinates, and names of the variables."""
+
+    coordinates: dict[str, np.ndarray]
+    names: list[str]
+    code_version: str
+
+
+def write_ensemble(point_paths: list[str | Path], out_path: str | Path, config: dict) -> None:
+    """Write one ensemble file, all of it or nothing.
+
+    Args:
+        point_paths: files of `gather_point`, in any order.
+        out_path: netCDF file to write.
+        config: the study's configuration, kept as JSON in the attribute `config`.
+
+    Raises:
+        BlockError: no point is given, a file is no point, or a point occurs twice.
+        OSError: the file cannot be written; whatever stood there before is untouched.
+    """
+    paths = _in_grid_order(point_paths)
+    layout = _layout(paths)
+    with new_file(out_path) as file:
+        _define(file, layout)
+        file.title = "Ensemble of jammed packings: response, spectra and provenance, by sample"
+        file.code_version = layout.code_version
+        file.config = json.dumps(config, sort_keys=True)
+        file.failures = json.dumps(_fill(file, layout, paths), sort_keys=True)
+
+
+def _in_grid_order(paths: list[str | Path]) -> list[Path]:
+    if not paths:
+        raise BlockError("an ensemble needs at least one point; none was given")
+    found: dict[tuple, Path] = {}
+    for path, block in _points(paths):
+        point = _coordinates(block)
+        if point in found:
+            raise BlockError(f"{path}: the point (n, phi, kt) = {point} also is {found[point]}")
+        found[point] = path
+    return [found[point] for point in sorted(found)]
+
+
+def _points(paths: list[str | Path]) -> Iterator[tuple[Path, Block]]:
+    for path in map(Path, paths):
+        block = read_block(path)
+        if block.attributes.get("stage") != "point":
+            raise BlockError(f"{path}: attribute stage is not 'point'; gather its blocks first")
+        yield path, block
+
+
+def _coordinates(block: Block) -> tuple[int, float, float]:
+    values = block.attributes
+    return int(values["n"]), float(values["phi"]), float(values["kt"])
+
+
+def _layout(paths: list[Path]) -> Layout:
+    grid, seeds, names, versions, modes = set(), set(), set(), set(), 0
+    for _, block in _points(paths):
+        grid.add(_coordinates(block))
+        seeds.update(block.variables["seed"].tolist())
+        names.update(name for name in block.variables if name != "seed")
+        versions.add(str(block.attributes["code_version"]))
+        modes = max(modes, *(a.shape[1] for a in block.variables.values() if a.ndim == 2), 0)
+    coordinates = {
+        name: np.unique([point[axis] for point in grid]) for axis, name in enumerate(GRID)
+    }
+    coordinates |= {"seed": np.array(sorted(seeds)), "mode": np.arange(modes)}
+    in_table_order = [name for name in VARIABLES if name in names]
+    return Layout(coordinates, in_table_order, ", ".join(sorted(versions)))
+
+
+def _define(file: netCDF4.Dataset, layout: Layout) -> None:
+    for name, values in layout.coordinates.items():
+        file.createDimension(name, len(values))
+        _describe(file.createVariable(name, VARIABLES[name].dtype, (name,)), name)
+        file[name][...] = values
+    for name in layout.names:
+        row = VARIABLES[name]
+        variable = file.createVariable(
+            name,
+            row.dtype,
+            (*GRID, *row.dimensions),
+            fill_value=np.nan if row.dtype.startswith("f") else INTEGER_FILL,
+            **_storage(layout, row.dimensions),
+        )
+        _describe(variable, name)
+
+
+def _describe(variable: netCDF4.Variable, name: str) -> None:
+    variable.units = VARIABLES[name].units
+    variable.long_name = VARIABLES[name].long_name
+
+
+def _storage(layout: Layout, dimensions: tuple[str, ...]) -> dict[str, object]:
+    if "mode" not in dimensions:
+        return {}
+    chunk = (1, 1, 1, 1, len(layout.coordinates["mode"]))
+    return {"chunksizes": chunk, "zlib": True, "complevel": 1, "shuffle": True}
+
+
+def _fill(file: netCDF4.Dataset, layout: Layout, paths: list[Path]) -> dict[str, str]:
+    """Write every point; return "n,phi,kt,seed" → why the sample failed."""
+    failures = {}
+    for _, block in _points(paths):
+        point = _coordinates(block)
+        place = tuple(
+            int(np.searchsorted(layout.coordinates[name], value))
+            for name, value in zip(GRID, point, strict=True)
+        )
+        rows = np.searchsorted(layout.coordinates["seed"], block.variables["seed"])
+        for name in layout.names:
+            if name in block.variables:
+                _fill_rows(file[name], place, rows, block.variables[name])
+        for seed, sentence in json.loads(block.attributes["failures"]).items():
+            failures[",".join(map(str, (*point, seed)))] = sentence
+    return failures
+
+
+def _fill_rows(
+    variable: netCDF4.Variable, place: tuple[int, ...], rows: np.ndarray, array: np.ndarray
+) -> None:
+    for row, values in zip(rows, array, strict=True):
+        rest = (slice(0, len(values)),) if array.ndim == 2 else ()
+        variable[(*place, int(row), *rest)] = values

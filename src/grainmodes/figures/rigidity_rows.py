@@ -1,0 +1,44 @@
+"""Rows of the figures of the rigidity: one per point of the grid and kind of G."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from grainmodes.ensemble import averages
+
+COLUMNS = {
+    "n": ("1", "number of grains N"),
+    "phi": ("1", "area fraction"),
+    "kt": ("k_N", "tangential stiffness k_T"),
+    "kind": ("-", "which G"),
+    "rigidity": ("k_N d^(1/2)", "mean over the converged samples; unjammed ones count as 0"),
+    "standard_error": ("k_N d^(1/2)", "standard error of the mean"),
+    "samples": ("1", "number of converged samples"),
+    "fraction_jammed": ("1", "fraction of these samples that is jammed"),
+}
+
+
+def rows(ensemble, kinds: dict[str, str], n: float) -> pd.DataFrame:
+    """Means of several variables of an ensemble below each other, at one N.
+
+    Args:
+        kinds: word for the column `kind` → variable of the ensemble; what it lacks is left out.
+        n: number of grains.
+
+    Returns:
+        columns `COLUMNS`; points without a converged sample are left out.
+    """
+    present = {kind: name for kind, name in kinds.items() if name in ensemble}
+    means = averages(ensemble, list(present.values()) or list(kinds.values()))
+    parts = [_one(means, kind, name) for kind, name in present.items()]
+    table = pd.concat(parts, ignore_index=True)
+    return table[(table["n"] == n) & (table["samples"] > 0)].reset_index(drop=True)
+
+
+def _one(means: pd.DataFrame, kind: str, name: str) -> pd.DataFrame:
+    renamed = {
+        name: "rigidity",
+        f"{name}_standard_error": "standard_error",
+        f"{name}_samples": "samples",
+    }
+    return means.assign(kind=kind).rename(columns=renamed)[list(COLUMNS)]

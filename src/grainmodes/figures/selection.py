@@ -1,0 +1,96 @@
+"""Which part of an ensemble a figure shows: what is asked for, else the choice of paper A."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+PAPER_PANELS = (1e-8, 1e-4, 1.0, 10.0)
+"""k_T/k_N of the four panels of A, Figs. 8 and 9."""
+
+MOST_CURVES = 8
+"""Curves that stay apart in one panel; of more values, evenly spread ones are shown."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """What a study may ask of a figure.
+
+    `n`, `phi`: the value shown by figures that show one; None is the largest of the ensemble.
+    `kt`: the values of k_T/k_N to show; None is the figure's own choice.
+    `fineness`: factor on the numbers of linear bins of A's spectra (500 and 100), at most 1 where
+    an ensemble has too few modes for them.
+    """
+
+    n: int | None = None
+    phi: float | None = None
+    kt: tuple[float, ...] | None = None
+    fineness: float = 1.0
+
+    @classmethod
+    def read(cls, figure: str, given: dict) -> Options:
+        """Options from a dictionary.
+
+        Raises:
+            ValueError: a key is unknown, or `fineness` is not in (0, 1].
+        """
+        allowed = [field.name for field in fields(cls)]
+        unknown = [key for key in given if key not in allowed]
+        if unknown:
+            raise ValueError(
+                f"figure {figure}: unknown option {unknown[0]!r}, allowed are {', '.join(allowed)}"
+            )
+        options = cls(**given)
+        if not 0.0 < options.fineness <= 1.0:
+            raise ValueError(f"figure {figure}: fineness is {options.fineness}, allowed is (0, 1]")
+        return options
+
+
+def largest_or(asked: float | None, ensemble, name: str) -> float:
+    """The value of coordinate `name` that is asked for, or its largest.
+
+    Raises:
+        ValueError: the ensemble does not have the value.
+    """
+    values = ensemble[name].to_numpy()
+    return values.max().item() if asked is None else _existing(asked, values, name)
+
+
+def curves(asked: tuple[float, ...] | None, values: np.ndarray, name: str) -> list[float]:
+    """The values asked for, or all of `values`, or evenly spread ones where they are too many."""
+    if asked is not None:
+        return sorted(_existing(value, values, name) for value in asked)
+    places = np.linspace(0, len(values) - 1, min(len(values), MOST_CURVES))
+    return [values[round(place)].item() for place in places]
+
+
+def panels(asked: tuple[float, ...] | None, values: np.ndarray) -> list[float]:
+    """k_T/k_N of the panels of a spectral figure: those asked for, A's, or at most four."""
+    if asked is not None:
+        return curves(asked, values, "kt")
+    paper = [kappa for kappa in PAPER_PANELS if np.isclose(values, kappa, rtol=1e-9, atol=0).any()]
+    if len(paper) == len(PAPER_PANELS):
+        return paper
+    places = np.linspace(0, len(values) - 1, min(len(values), len(PAPER_PANELS)))
+    return [values[round(place)].item() for place in places]
+
+
+def positive(values: np.ndarray, figure: str) -> np.ndarray:
+    """The values of k_T/k_N that a logarithmic axis can show.
+
+    Raises:
+        ValueError: there is none.
+    """
+    if not (values > 0).any():
+        raise ValueError(f"figure {figure}: the ensemble has no k_T > 0; the figure needs one")
+    return values[values > 0]
+
+
+def _existing(asked: float, values: np.ndarray, name: str) -> float:
+    found = values[np.isclose(values, asked, rtol=1e-9, atol=0)]
+    if not len(found):
+        raise ValueError(
+            f"{name} = {asked} is not in the ensemble, allowed are {', '.join(map(str, values))}"
+        )
+    return found[0].item()
