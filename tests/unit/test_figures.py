@@ -9,7 +9,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import synthetic
 from grainmodes.dataset import BlockError
-from grainmodes.ensemble import open_ensemble, spectrum
+from grainmodes.ensemble import open_ensemble, write_ensemble
+from grainmodes.ensemble.averages import spectrum
 from grainmodes.figures import (
     appearance,
     dos,
@@ -109,6 +110,18 @@ def test_spectral_figures_show_the_largest_phi_and_n(tmp_path):
     assert (set(asked["n"]), set(asked["phi"])) == ({8}, {0.86})
 
 
+def test_spectral_figures_show_the_largest_phi_that_has_spectra(tmp_path):
+    points = [
+        synthetic.point(tmp_path, 16, 0.86, 1.0, 2),
+        synthetic.point(tmp_path, 16, 0.90, 1.0, 2, stages=("packings", "rigidity")),
+    ]
+    write_ensemble(points, tmp_path / "ensemble.nc", {})
+    with open_ensemble(tmp_path / "ensemble.nc") as dataset:
+        assert set(dos.table(dataset, Options())["phi"]) == {0.86}
+        with pytest.raises(ValueError, match=r"phi = 0.9: .* can show 0\.86"):
+            dos.table(dataset, Options(phi=0.90))
+
+
 def test_scaled_density_keeps_the_number_of_modes(ensemble):
     table = dos_scaled.table(ensemble, Options(kt=(1e-4,)))
     assert table["scaled_omega"].between(0.1, 10.0).all()
@@ -164,9 +177,13 @@ def test_one_sample_has_a_spectrum_without_error(tmp_path):
     [
         ("g_psi", {}, "figure 'g_psi': expected one of g_phi, g_kt"),
         ("dos", {"colour": "red"}, "figure dos: unknown option 'colour', allowed are n, phi, kt"),
-        ("dos", {"phi": 0.87}, "phi = 0.87 is not in the ensemble, allowed are 0.83, 0.86, 0.9"),
-        ("dos", {"kt": (3.0,)}, "kt = 3.0 is not in the ensemble, allowed are 1e-08"),
-        ("dos", {"n": 17}, "n = 17 is not in the ensemble, allowed are 16"),
+        (
+            "dos",
+            {"phi": 0.87},
+            "phi = 0.87: of this ensemble, the figure can show 0.83, 0.86, 0.9",
+        ),
+        ("dos", {"kt": (3.0,)}, "kt = 3.0: of this ensemble, the figure can show 1e-08"),
+        ("dos", {"n": 17}, "n = 17: of this ensemble, the figure can show 16"),
         ("dos", {"fineness": 0.0}, r"fineness is 0.0, allowed is \(0, 1\]"),
     ],
 )

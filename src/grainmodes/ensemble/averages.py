@@ -1,4 +1,4 @@
-"""Reading an ensemble: averages with their uncertainties, and the spectra of one point.
+"""Averages of an ensemble with their uncertainties, and the spectra of one point.
 
 An average runs over all converged samples. An unjammed sample has g = 0 and counts as such, as in
 A; the fraction jammed stands beside every average, so that the two effects can be told apart.
@@ -6,7 +6,6 @@ A; the fraction jammed stands beside every average, so that the two effects can 
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -24,29 +23,6 @@ class Spectrum(NamedTuple):
 
     eigenvalue: np.ndarray
     psi_rotational: np.ndarray
-
-
-def open_ensemble(path: str | Path) -> xr.Dataset:
-    """Open an ensemble; arrays are read when they are used.
-
-    Raises:
-        BlockError: no such file, not a readable netCDF file, or not an ensemble.
-    """
-    path = Path(path)
-    if not path.is_file():
-        raise BlockError(f"{path}: no such file")
-    try:
-        ensemble = xr.open_dataset(path, engine="netcdf4")
-    except (OSError, RuntimeError, ValueError) as error:
-        reason = str(error).partition("\n")[0]
-        raise BlockError(
-            f"{path}: not a readable netCDF file, or a truncated one ({reason})"
-        ) from error
-    missing = [name for name in (*GRID, "seed", "mode") if name not in ensemble.dims]
-    if missing:
-        ensemble.close()
-        raise BlockError(f"{path}: not an ensemble, it lacks the dimension {missing[0]}")
-    return ensemble
 
 
 def averages(ensemble: xr.Dataset, names: list[str]) -> pd.DataFrame:
@@ -93,6 +69,17 @@ def spectrum(ensemble: xr.Dataset, n: int, phi: float, kt: float) -> Spectrum:
     if "psi_rotational" not in point:
         return Spectrum(eigenvalue, np.full_like(eigenvalue, np.nan))
     return Spectrum(eigenvalue, point["psi_rotational"].to_numpy()[used])
+
+
+def area_fractions_with_spectra(ensemble: xr.Dataset, n: int) -> np.ndarray:
+    """Area fractions at which the study computed spectra of n grains, ascending.
+
+    Raises:
+        BlockError: the ensemble holds no spectra.
+    """
+    _variable(ensemble, "eigenvalue")
+    computed = ensemble["mode_count"].sel(n=n).notnull().any(["kt", "seed"])
+    return ensemble["phi"].to_numpy()[computed.to_numpy()]
 
 
 def _variable(ensemble: xr.Dataset, name: str) -> xr.DataArray:

@@ -23,7 +23,7 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         ValueError: the ensemble has no k_T > 0.
     """
     positive(ensemble["kt"].to_numpy(), "g_kt")
-    found = rows(ensemble, KINDS, largest_or(options.n, ensemble, "n"))
+    found = rows(ensemble, KINDS, largest_or(options.n, ensemble["n"].to_numpy(), "n"))
     asked = None if options.phi is None else (options.phi,)
     return found[found["phi"].isin(curves(asked, ensemble["phi"].to_numpy(), "phi"))]
 

@@ -23,7 +23,7 @@ LINEAR_BELOW = 0.02
 
 def table(ensemble, options: Options) -> pd.DataFrame:
     """G_NA and its standard error, with the columns `COLUMNS`."""
-    found = rows(ensemble, KINDS, largest_or(options.n, ensemble, "n"))
+    found = rows(ensemble, KINDS, largest_or(options.n, ensemble["n"].to_numpy(), "n"))
     return found[found["kt"].isin(curves(options.kt, ensemble["kt"].to_numpy(), "kt"))]
 
 

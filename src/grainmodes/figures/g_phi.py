@@ -19,7 +19,7 @@ LARGEST, SMALLEST, DOT = 8.5, 6.5, 1.7
 
 def table(ensemble, options: Options) -> pd.DataFrame:
     """G and its standard error, with the columns `COLUMNS`."""
-    found = rows(ensemble, KINDS, largest_or(options.n, ensemble, "n"))
+    found = rows(ensemble, KINDS, largest_or(options.n, ensemble["n"].to_numpy(), "n"))
     return found[found["kt"].isin(curves(options.kt, ensemble["kt"].to_numpy(), "kt"))]
 
 

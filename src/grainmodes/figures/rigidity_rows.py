@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from grainmodes.ensemble import averages
+from grainmodes.ensemble.averages import averages
 
 COLUMNS = {
     "n": ("1", "number of grains N"),

@@ -47,13 +47,12 @@ class Options:
         return options
 
 
-def largest_or(asked: float | None, ensemble, name: str) -> float:
-    """The value of coordinate `name` that is asked for, or its largest.
+def largest_or(asked: float | None, values: np.ndarray, name: str) -> float:
+    """The value that is asked for, or the largest.
 
     Raises:
-        ValueError: the ensemble does not have the value.
+        ValueError: the value asked for is none of `values`, the error calls it `name`.
     """
-    values = ensemble[name].to_numpy()
     return values.max().item() if asked is None else _existing(asked, values, name)
 
 
@@ -91,6 +90,6 @@ def _existing(asked: float, values: np.ndarray, name: str) -> float:
     found = values[np.isclose(values, asked, rtol=1e-9, atol=0)]
     if not len(found):
         raise ValueError(
-            f"{name} = {asked} is not in the ensemble, allowed are {', '.join(map(str, values))}"
+            f"{name} = {asked}: of this ensemble, the figure can show {', '.join(map(str, values))}"
         )
     return found[0].item()

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from grainmodes import statistics
-from grainmodes.ensemble import Spectrum, spectrum
+from grainmodes.ensemble.averages import Spectrum, area_fractions_with_spectra, spectrum
 from grainmodes.figures.selection import Options, largest_or
 
 BINS = {
@@ -41,8 +41,8 @@ def rows(ensemble, options: Options, kappas: list[float]) -> pd.DataFrame:
 
     A k_T without any vibration (no jammed sample) has no rows.
     """
-    n = largest_or(options.n, ensemble, "n")
-    phi = largest_or(options.phi, ensemble, "phi")
+    n = largest_or(options.n, ensemble["n"].to_numpy(), "n")
+    phi = largest_or(options.phi, area_fractions_with_spectra(ensemble, n), "phi")
     parts = []
     for kappa in kappas:
         found = _bins(spectrum(ensemble, n, phi, kappa), n, kappa, options.fineness)

@@ -1,0 +1,38 @@
+"""Opening an ensemble."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from grainmodes.dataset import BlockError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+DIMENSIONS = ("n", "phi", "kt", "seed", "mode")
+
+
+def open_ensemble(path: str | Path) -> xr.Dataset:
+    """Open an ensemble; arrays are read when they are used.
+
+    Raises:
+        BlockError: no such file, not a readable netCDF file, or not an ensemble.
+    """
+    import xarray as xr  # here, because to gather points takes less time than this import
+
+    path = Path(path)
+    if not path.is_file():
+        raise BlockError(f"{path}: no such file")
+    try:
+        ensemble = xr.open_dataset(path, engine="netcdf4")
+    except (OSError, RuntimeError, ValueError) as error:
+        reason = str(error).partition("\n")[0]
+        raise BlockError(
+            f"{path}: not a readable netCDF file, or a truncated one ({reason})"
+        ) from error
+    missing = [name for name in DIMENSIONS if name not in ensemble.dims]
+    if missing:
+        ensemble.close()
+        raise BlockError(f"{path}: not an ensemble, it lacks the dimension {missing[0]}")
+    return ensemble
