@@ -26,7 +26,7 @@ LOWEST_CHECKPOINT = 0.80
 
 @dataclass(frozen=True)
 class ContactLaw:
-    """The force between two touching grains; `kt = 0` is frictionless whatever `tangential` says."""
+    """The force between two touching grains; `kt = 0` is frictionless, whatever `tangential`."""
 
     normal: str = "hertz"
     tangential: str = "elastic"
@@ -69,7 +69,10 @@ class StepStrain:
 
 @dataclass(frozen=True)
 class Rattlers:
-    """A grain with at most `threshold` contacts is a rattler (Z_Th of A, App. E); `keep` leaves them in."""
+    """A grain with at most `threshold` contacts is a rattler (Z_Th of A, App. E).
+
+    `keep` leaves them in.
+    """
 
     threshold: int = 2
     keep: bool = False
@@ -146,7 +149,7 @@ def checkpoint_at_or_below(phi: float) -> float:
 
 @dataclass(frozen=True)
 class Figure:
-    """What a figure shows, and which observables its study must ask for."""
+    """What a figure shows, and what its study must ask for."""
 
     title: str
     observables: tuple[str, ...]
@@ -154,15 +157,20 @@ class Figure:
 
 FIGURES = {
     "g_phi": Figure("Rigidity against area fraction (paper A, Fig. 4)", ("rigidity",)),
-    "g_kt": Figure("Rigidity against tangential stiffness (paper A, Fig. 5)", ("rigidity",)),
+    "g_kt": Figure(
+        "Rigidity against tangential stiffness (paper A, Fig. 5)", ("rigidity", "friction")
+    ),
     "g_nonaffine": Figure(
         "Non-affine rigidity, unloaded and loaded step strain (paper A, Fig. 6)", ("rigidity",)
     ),
     "participation": Figure(
-        "Translational and rotational fractions of the modes (paper A, Fig. 8)", ("modes",)
+        "Translational and rotational fractions of the modes (paper A, Fig. 8)",
+        ("modes", "friction"),
     ),
     "dos": Figure("Density of states (paper A, Fig. 9)", ("spectrum",)),
-    "dos_scaled": Figure("Density of states, scaled by omega_R (paper A, Fig. 10)", ("spectrum",)),
+    "dos_scaled": Figure(
+        "Density of states, scaled by omega_R (paper A, Fig. 10)", ("spectrum", "friction")
+    ),
 }
 """Every figure. `rigidity` figures show the simulated step strain as well where a study has it;
-`modes` stands for a spectrum with eigenvectors."""
+`modes` stands for a spectrum with eigenvectors, `friction` for a k_T above 0."""

@@ -1,0 +1,40 @@
+# make study      packings, spectra and figures of config/default.yaml
+# make test       the tests (minutes)      make test-all   every test, the slow ones too
+# make lint       style and the walls between modules
+# make clean      forget results, compiled kernels and Snakemake's bookkeeping
+#
+# Needed on the machine: Python >= 3.11 with pip, a C compiler, make. CONFIG=config/paper_a.yaml
+# chooses another scene, JOBS=8 more jobs at once, PYTHON=python3.12 another Python for .venv.
+
+PYTHON ?= python3
+JOBS ?= 2
+CONFIG ?=
+BIN := .venv/bin
+READY := .venv/ready
+
+.PHONY: study test test-all lint clean
+.NOTPARALLEL:
+
+study: $(READY)
+	$(BIN)/python workflow/scripts/study.py -j$(JOBS) $(if $(CONFIG),--configfile $(CONFIG))
+
+test: $(READY)
+	$(BIN)/python -m pytest
+
+test-all: $(READY)
+	$(BIN)/python -m pytest -m ""
+
+lint: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/snakefmt --check --line-length 100 Snakefile workflow
+	$(BIN)/lint-imports
+
+clean:
+	rm -rf results/* .snakemake .numba_cache .pytest_cache .ruff_cache .import_linter_cache
+
+$(READY): requirements.lock pyproject.toml
+	$(PYTHON) -m venv --clear .venv
+	$(BIN)/python -m pip install --quiet --requirement requirements.lock
+	$(BIN)/python -m pip install --quiet --no-deps --editable .
+	touch $@

@@ -1,0 +1,26 @@
+# From grains at random to averaged figures.
+#
+#   snakemake -j2                                       the scene of config/default.yaml
+#   snakemake -j2 --configfile config/paper_a.yaml      another scene, instead of the default one
+#   snakemake -n                                        what would run
+#   snakemake -j1 results/default/rigidity/n~256/phi~0.873/kt~3e-05/seeds~0003-0003.nc
+#   snakemake -j1 benchmarks                            a table of speeds
+#
+# trajectories -> packings -> {rigidity, step_strain, spectrum} -> points -> ensemble -> figures
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/packings.smk"
+include: "workflow/rules/response.smk"
+include: "workflow/rules/ensembles.smk"
+include: "workflow/rules/checks.smk"
+include: "workflow/rules/figures.smk"
+include: "workflow/rules/benchmarks.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        ensemble=rules.ensemble.output,
+        checks=rules.checks.output,
+        figures=figures(),

@@ -1,0 +1,29 @@
+"""Commands that collect: blocks into a point, points into an ensemble, an ensemble into figures."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+
+def gather(arguments: Namespace) -> None:
+    """Blocks of one point → the point."""
+    from grainmodes.dataset import write_block
+    from grainmodes.ensemble import gather_point
+
+    write_block(arguments.output, gather_point(arguments.blocks))
+
+
+def ensemble(arguments: Namespace) -> None:
+    """Points → the ensemble."""
+    from grainmodes.ensemble import write_ensemble
+
+    write_ensemble(arguments.points, arguments.output, arguments.config)
+
+
+def figure(arguments: Namespace) -> None:
+    """An ensemble → one figure."""
+    from grainmodes.figures import draw
+
+    asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "fineness")}
+    options = {name: value for name, value in asked.items() if value is not None}
+    draw(arguments.figure, arguments.ensemble, arguments.output, options)

@@ -1,0 +1,119 @@
+"""Commands that compute: read, call the stage's pure function, write."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+from grainmodes import blocks
+from grainmodes.configuration import ConfigurationError, Scene, scene_of
+from grainmodes.dataset import read_block, write_block
+
+OPTIONS = {
+    "grid.n[0]": "--n",
+    "grid.phi[0]": "--phi",
+    "grid.kt[0]": "--kt",
+    "grid.n": "--n",
+    "contact_law.normal": "--normal",
+    "contact_law.tangential": "--tangential",
+    "contact_law.friction_coefficient": "--friction-coefficient",
+}
+"""Key of a configuration → the option that sets it here."""
+
+ANY_POINT = {"n": [1024], "phi": [0.9], "kt": [0.0], "seeds": 1}
+"""A valid grid, for commands that find the rest of their point in a file."""
+
+
+def compress(arguments: Namespace) -> None:
+    """Random grains, or the checkpoint below → a checkpoint."""
+    scene = _scene(arguments.settings, n=arguments.n, phi=arguments.phi)
+    start = read_block(arguments.start) if arguments.start else None
+    block = blocks.compress_block(
+        arguments.n,
+        arguments.seeds,
+        arguments.phi,
+        scene.protocol.compression,
+        scene.law.normal,
+        start,
+    )
+    write_block(arguments.output, block)
+
+
+def pack(arguments: Namespace) -> None:
+    """A checkpoint → packings."""
+    scene = _scene(arguments.settings, phi=arguments.phi)
+    start = read_block(arguments.start)
+    compression = scene.protocol.compression
+    block = blocks.packing_block(start, arguments.phi, compression, scene.law.normal)
+    write_block(arguments.output, block)
+
+
+def rigidity(arguments: Namespace) -> None:
+    """Packings → rigidity."""
+    scene = _scene(arguments.settings, kt=arguments.kt)
+    law, rattlers = scene.law_at(arguments.kt), scene.protocol.rattlers
+    block = blocks.rigidity_block(read_block(arguments.packings), law, rattlers)
+    write_block(arguments.output, block)
+
+
+def step_strain(arguments: Namespace) -> None:
+    """Packings → simulated rigidity."""
+    scene = _scene(arguments.settings, kt=arguments.kt)
+    law, step = scene.law_at(arguments.kt), scene.protocol.step_strain
+    block = blocks.step_strain_block(read_block(arguments.packings), law, step)
+    write_block(arguments.output, block)
+
+
+def spectrum(arguments: Namespace) -> None:
+    """Packings → eigenvalues."""
+    scene = _scene(arguments.settings, kt=arguments.kt)
+    if scene.spectrum == "none":
+        raise ConfigurationError(
+            "observables.spectrum = 'none': allowed here are eigenvalues and modes"
+        )
+    law, rattlers = scene.law_at(arguments.kt), scene.protocol.rattlers
+    packings = read_block(arguments.packings)
+    block = blocks.spectrum_block(packings, law, rattlers, scene.spectrum)
+    write_block(arguments.output, block)
+
+
+def point(arguments: Namespace) -> None:
+    """Everything of one point, without files between."""
+    settings = _with_options(arguments)
+    scene = _scene(settings, n=arguments.n, phi=arguments.phi, kt=arguments.kt)
+    block = blocks.point_block(
+        arguments.n,
+        arguments.phi,
+        scene.law_at(arguments.kt),
+        arguments.seeds,
+        scene.protocol,
+        scene.spectrum,
+    )
+    write_block(arguments.output, block)
+
+
+def _with_options(arguments: Namespace) -> dict:
+    """The settings, with the laws and the spectrum that options name."""
+    law = {
+        "normal": arguments.normal,
+        "tangential": arguments.tangential,
+        "friction_coefficient": arguments.friction_coefficient,
+    }
+    named = {key: value for key, value in law.items() if value is not None}
+    observables = {"spectrum": arguments.spectrum} if arguments.spectrum else {}
+    settings = arguments.settings
+    return settings | {
+        "contact_law": settings.get("contact_law", {}) | named,
+        "observables": settings.get("observables", {}) | observables,
+    }
+
+
+def _scene(settings: dict, **point: float) -> Scene:
+    """The scene of one point: the same defaults, ranges and messages as for a whole study."""
+    asked = {name: [value] for name, value in point.items()}
+    try:
+        return scene_of({**settings, "study": "by-hand", "grid": ANY_POINT | asked})
+    except ConfigurationError as error:
+        message = str(error)
+        for key, option in OPTIONS.items():
+            message = message.replace(key, option)
+        raise ConfigurationError(message) from error

@@ -1,0 +1,50 @@
+"""From a configuration file to a validated scene.
+
+A configuration is a dictionary with the keys of `config.schema.yaml`. `complete` fills in the
+defaults, the schema and then `rules` judge it, and what passes becomes a frozen `Scene`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from grainmodes.configuration import rules
+from grainmodes.configuration.scene import Scene
+from grainmodes.configuration.schema import complete, mistakes, schema
+
+__all__ = ["ConfigurationError", "Scene", "read_scene", "scene_of"]
+
+
+class ConfigurationError(ValueError):
+    """A configuration with mistakes: one sentence, one line, for each."""
+
+
+def scene_of(config: dict) -> Scene:
+    """The scene that a configuration describes.
+
+    Raises:
+        ConfigurationError: with a line for every mistake: the key, its value, what is allowed.
+    """
+    full = complete(config, schema())
+    found = mistakes(full, schema()) or list(rules.conflicts(full))
+    if found:
+        raise ConfigurationError("\n".join(found))
+    return Scene.of(full)
+
+
+def read_scene(path: str | Path) -> Scene:
+    """The scene of a YAML file.
+
+    Raises:
+        ConfigurationError: the file is missing or is not YAML, or what `scene_of` raises.
+    """
+    import yaml
+
+    try:
+        config = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        reason = " ".join(str(error).split())
+        raise ConfigurationError(f"{path}: not a readable YAML file ({reason})") from error
+    if not isinstance(config, dict):
+        raise ConfigurationError(f"{path}: holds no keys, needed are study and grid")
+    return scene_of(config)

@@ -1,0 +1,134 @@
+"""A scene against the schema: missing keys get their default, each mistake becomes one sentence.
+
+`config.schema.yaml` says type, range, unit and meaning of every key, and its default where a key
+may be absent; a unit test holds these defaults against those of `grainmodes.parameters`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from copy import deepcopy
+from functools import cache
+from pathlib import Path
+
+import yaml
+
+PATH = Path(__file__).with_name("config.schema.yaml")
+
+TYPES = {
+    "integer": "a whole number",
+    "number": "a number",
+    "string": "a text",
+    "boolean": "true or false",
+    "object": "a block of keys",
+}
+
+
+@cache
+def schema() -> dict:
+    """The schema of a scene, as plain dictionaries; callers do not change it."""
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    return yaml.load(PATH.read_text(encoding="utf-8"), Loader=loader)
+
+
+def complete(value, rule: dict):
+    """`value` with the defaults of its absent keys, and with numbers where text spells a number.
+
+    YAML 1.1 reads 1e-8 as a text (it wants 1.0e-8), which no user means.
+    """
+    if isinstance(value, dict) and "properties" in rule:
+        return _with_defaults(value, rule["properties"])
+    if isinstance(value, list | tuple) and "items" in rule:
+        return [complete(item, rule["items"]) for item in value]
+    return _number(value, _types(rule))
+
+
+def mistakes(value, rule: dict) -> list[str]:
+    """One sentence per key that breaks its rule: the key, its value, what is allowed."""
+    from jsonschema import Draft202012Validator
+
+    errors = Draft202012Validator(rule).iter_errors(value)
+    ordered = sorted(errors, key=lambda error: [str(part) for part in error.absolute_path])
+    return list(dict.fromkeys(line for error in ordered for line in _sentences(error)))
+
+
+def allowed(rule: dict) -> str:
+    """What a rule allows, in words.
+
+    >>> allowed({"type": "number", "minimum": 0.0, "maximum": 10.0, "unit": "k_N"})
+    'a number from 0.0 to 10.0 (k_N)'
+    """
+    if "enum" in rule:
+        return f"one of {', '.join(map(str, rule['enum']))}"
+    if "words" in rule:
+        return rule["words"]
+    if rule["type"] == "array":
+        return f"a list, each item {allowed(rule['items'])}"
+    kind = " or ".join(TYPES[name] for name in _types(rule) if name != "null")
+    if rule.get("multipleOf") == 2:
+        kind = kind.replace("whole", "whole even")
+    unit = f" ({rule['unit']})" if "unit" in rule else ""
+    return f"{kind}{_range(rule)}{unit}"
+
+
+def _with_defaults(value: dict, rules: dict) -> dict:
+    defaults = {key: deepcopy(rule["default"]) for key, rule in rules.items() if "default" in rule}
+    given = {key: item for key, item in value.items() if item is not None or key not in defaults}
+    merged = defaults | given
+    return {key: complete(item, rules.get(key, {})) for key, item in merged.items()}
+
+
+def _types(rule: dict) -> list[str]:
+    types = rule.get("type", [])
+    return [types] if isinstance(types, str) else types
+
+
+def _number(value, types: list[str]):
+    """The number that a text spells where one is wanted, whole where it must be.
+
+    A NaN becomes a text: it would pass every range, since all comparisons with it are false.
+    """
+    if not {"number", "integer"} & set(types) or isinstance(value, bool):
+        return value
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        return value
+    if number != number:
+        return "nan"
+    return int(number) if "integer" in types and number.is_integer() else number
+
+
+def _sentences(error) -> Iterator[str]:
+    key = _key(error.absolute_path)
+    where = f"{key}: " if key else ""
+    if error.validator == "additionalProperties":
+        names = error.schema["properties"]
+        for name in sorted(set(error.instance) - set(names)):
+            yield f"{where}unknown key {name!r}, allowed are {', '.join(names)}"
+    elif error.validator == "required":
+        for name in sorted(set(error.validator_value) - set(error.instance)):
+            rule = error.schema["properties"][name]
+            yield f"{where}key {name!r} is missing, needed is {allowed(rule)}"
+    elif error.validator == "uniqueItems":
+        twice = next(item for item in error.instance if error.instance.count(item) > 1)
+        yield f"{where}{twice!r} stands there twice, allowed is every value once"
+    else:
+        yield f"{key or 'the scene'} = {_shown(error.instance)}: allowed is {allowed(error.schema)}"
+
+
+def _key(path) -> str:
+    text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
+    return text.removeprefix(".")
+
+
+def _shown(value) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def _range(rule: dict) -> str:
+    low, high = rule.get("minimum"), rule.get("maximum")
+    if "exclusiveMinimum" in rule:
+        return f" above {rule['exclusiveMinimum']} and up to {high}"
+    return "" if low is None else f" from {low} to {high}"

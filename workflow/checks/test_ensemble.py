@@ -1,0 +1,92 @@
+"""Questions that every ensemble must answer well before a figure of it is believed.
+
+They hold whatever the grid: force balance as deep as asked, moduli that add up, theory equal to
+simulation where the step strain changed no contact, fractions between 0 and 1.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+THEORY_AGAINST_SIMULATION = 1e-5
+"""Largest relative difference of g and g_simulated without contact changes."""
+
+SUM_OF_PARTS = 1e-10
+"""Largest relative difference of a modulus and the sum of its parts."""
+
+SMALLEST_PART_CONVERGED = 0.5
+"""Smallest part of the samples of a point that must have converged."""
+
+
+def _has(ensemble, *names: str) -> None:
+    absent = [name for name in names if name not in ensemble]
+    if absent:
+        pytest.skip(f"the study asked for no {', '.join(absent)}")
+
+
+def _all(claim) -> bool:
+    return bool(np.all(claim))
+
+
+def test_most_samples_converged(ensemble, converged):
+    part = converged.mean("seed")
+    poor = part.where(part < SMALLEST_PART_CONVERGED, drop=True)
+    assert poor.size == 0, f"few samples converged at {poor.to_dataframe('part').dropna()}"
+
+
+def test_forces_balance(ensemble, converged, protocol):
+    _has(ensemble, "max_force")
+    force = ensemble["max_force"].where(converged)
+    assert float(force.max()) < protocol["compression"]["force_tolerance"]
+
+
+def test_every_converged_sample_has_a_rigidity(ensemble, converged):
+    _has(ensemble, "g")
+    assert _all(np.isfinite(ensemble["g"]) | ~converged)
+
+
+def test_unjammed_samples_are_not_rigid(ensemble, converged):
+    _has(ensemble, "g", "jammed")
+    assert _all((ensemble["g"] == 0.0) | (ensemble["jammed"] == 1) | ~converged)
+
+
+@pytest.mark.parametrize("suffix", ["", "_loaded"])
+def test_parts_add_up(ensemble, converged, suffix):
+    names = [f"g{suffix}", f"g_affine{suffix}", f"g_nonaffine{suffix}"]
+    _has(ensemble, *names)
+    total, affine, nonaffine = (ensemble[name].where(converged) for name in names)
+    scale = np.abs(affine) + np.abs(nonaffine)
+    assert not (np.abs(total - affine - nonaffine) > SUM_OF_PARTS * scale).any()
+
+
+def test_loaded_relaxation_softens(ensemble, converged):
+    _has(ensemble, "g_nonaffine_loaded", "g_affine_loaded")
+    rise = ensemble["g_nonaffine_loaded"].where(converged)
+    assert not (rise > SUM_OF_PARTS * np.abs(ensemble["g_affine_loaded"])).any()
+
+
+def test_theory_is_simulation(ensemble, converged):
+    _has(ensemble, "g", "g_simulated", "contact_changes")
+    same_contacts = converged & (ensemble["contact_changes"] == 0) & (ensemble["g"] != 0.0)
+    theory, simulation = (ensemble[name].where(same_contacts) for name in ("g", "g_simulated"))
+    assert not (np.abs(simulation / theory - 1.0) > THEORY_AGAINST_SIMULATION).any()
+
+
+@pytest.mark.parametrize("name", ["psi_rotational", "participation_ratio"])
+def test_fractions(ensemble, converged, name):
+    _has(ensemble, name)
+    fraction = ensemble[name].where(converged)
+    assert not ((fraction < -1e-12) | (fraction > 1.0 + 1e-12)).any()
+
+
+def test_eigenvalues_ascend(ensemble, converged):
+    _has(ensemble, "eigenvalue")
+    step = ensemble["eigenvalue"].where(converged).diff("mode")
+    assert not (step < 0.0).any()
+
+
+def test_no_force_balance_is_unstable(ensemble, converged):
+    _has(ensemble, "eigenvalue")
+    eigenvalue = ensemble["eigenvalue"].where(converged)
+    assert not (eigenvalue.min("mode") < -1e-10 * eigenvalue.max("mode")).any()

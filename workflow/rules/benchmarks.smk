@@ -1,0 +1,10 @@
+# Speeds on this machine; no output is declared, so that asking for it always measures.
+
+
+rule benchmarks:
+    input:
+        scripts="tests/benchmarks/run.py",
+    message:
+        "Measure the speeds."
+    shell:
+        "python {input.scripts} | tee results/benchmarks.txt"

@@ -1,0 +1,92 @@
+# The validated scene, the paths of its files, and the sources behind each stage.
+
+import os
+import sys
+from pathlib import Path
+
+from snakemake.exceptions import WorkflowError
+
+from grainmodes.configuration import ConfigurationError, scene_of
+from grainmodes.parameters import (
+    CHECKPOINT_SPACING,
+    FIGURES,
+    LOWEST_CHECKPOINT,
+    checkpoint_at_or_below,
+    format_value,
+)
+from grainmodes.provenance import stage_sources
+
+# Snakemake would merge a scene of the command line into the default one, key by key.
+if not workflow.config_settings.configfiles:
+
+    configfile: "config/default.yaml"
+
+
+try:
+    scene = scene_of(config)
+except ConfigurationError as error:
+    raise WorkflowError(f"The configuration has mistakes.\n{error}")
+
+# The command `grainmodes` of the Python that runs Snakemake, with its environment active or not.
+os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+
+STUDY = f"results/{scene.study}"
+BLOCK = "n~{n}/phi~{phi}/seeds~{seeds}.nc"
+RESPONSE = "n~{n}/phi~{phi}/kt~{kt}/seeds~{seeds}.nc"
+POINT = "n~{n}/phi~{phi}/kt~{kt}.nc"
+AT = "n = {wildcards.n}, phi = {wildcards.phi}, k_T = {wildcards.kt}, seeds {wildcards.seeds}"
+FORMS = ["png", "pdf", "csv"]
+NUMBER = r"\d+(\.\d+)?(e[+-]?\d+)?"
+
+
+wildcard_constraints:
+    n=r"\d+",
+    phi=NUMBER,
+    kt=NUMBER,
+    seeds=r"\d+-\d+",
+
+
+def sources(*entries):
+    """Files whose edit changes what a stage computes, written as a user would."""
+    here = Path.cwd()
+    paths = stage_sources(*entries)
+    return [str(p.relative_to(here) if p.is_relative_to(here) else p) for p in paths]
+
+
+def sources_of_figure(wildcards):
+    """What all figures share, and the module of this one."""
+    return sources("grainmodes.figures", f"grainmodes.figures.{wildcards.figure}")
+
+
+def checkpoint_below(wildcards):
+    """The checkpoint that a checkpoint starts from; none for the lowest."""
+    below = round(float(wildcards.phi) - CHECKPOINT_SPACING, 12)
+    return [] if below < LOWEST_CHECKPOINT else checkpoint(wildcards, below)
+
+
+def checkpoint_for(wildcards):
+    """The checkpoint that packings start from."""
+    return checkpoint(wildcards, checkpoint_at_or_below(float(wildcards.phi)))
+
+
+def checkpoint(wildcards, phi):
+    names = dict(wildcards.items()) | {"phi": format_value(phi)}
+    return f"{STUDY}/trajectories/{BLOCK}".format(**names)
+
+
+def blocks_of_point(wildcards):
+    """Packings and responses of a point, all blocks of seeds."""
+    stages = scene.responses(float(wildcards.phi))
+    files = [f"{STUDY}/packings/{BLOCK}", *(f"{STUDY}/{stage}/{RESPONSE}" for stage in stages)]
+    return expand(files, seeds=scene.blocks, **dict(wildcards.items()))
+
+
+def points():
+    """Every point of the grid."""
+    n, phi, kt = ([*map(format_value, values)] for values in (scene.n, scene.phi, scene.kt))
+    return expand(f"{STUDY}/points/{POINT}", n=n, phi=phi, kt=kt)
+
+
+def figures():
+    """Every file of every figure that the scene asks for."""
+    return [f"{STUDY}/figures/{name}.{form}" for name in scene.figures for form in FORMS]

@@ -1,0 +1,27 @@
+# Blocks of seeds -> points of the grid -> one ensemble.
+
+
+rule point:
+    input:
+        blocks=blocks_of_point,
+        code=sources("grainmodes.ensemble:gather_point"),
+    output:
+        f"{STUDY}/points/{POINT}",
+    message:
+        "Gather n = {wildcards.n}, phi = {wildcards.phi}, k_T = {wildcards.kt}."
+    shell:
+        "grainmodes gather {input.blocks} -o {output}"
+
+
+rule ensemble:
+    input:
+        points=points(),
+        code=sources("grainmodes.ensemble:write_ensemble"),
+    output:
+        f"{STUDY}/ensemble.nc",
+    params:
+        config=scene.settings("ensemble"),
+    message:
+        "Gather all points into one ensemble."
+    shell:
+        "grainmodes ensemble {input.points} --config {params.config:q} -o {output}"
