@@ -18,6 +18,9 @@ from grainmodes import __version__
 PACKAGE = Path(__file__).resolve().parent
 """The folder of the package `grainmodes`."""
 
+DATA = (".mplstyle", ".yaml")
+"""Suffixes of the files that a package reads beside its modules."""
+
 
 def source_hash() -> str:
     """Fingerprint of every Python file of the package: 12 hexadecimal digits."""
@@ -43,7 +46,7 @@ def stage_sources(*entries: str) -> list[Path]:
     Args:
         entries: `package.module`, or `package.module:function`. A function counts with those
             imports of its module that it can reach; everything else counts with all its imports,
-            and a package with the files in its folder that are not Python.
+            and a package with the data files in its folder.
 
     Raises:
         ModuleNotFoundError: an entry names no module of the package.
@@ -108,7 +111,7 @@ def _file(module: str) -> Path | None:
 
 def _data_of(path: Path) -> Iterator[Path]:
     beside = path.parent.iterdir() if path.name == "__init__.py" else ()
-    return (other for other in beside if other.is_file() and other.suffix != ".py")
+    return (other for other in beside if other.suffix in DATA)
 
 
 @cache
