@@ -72,6 +72,7 @@ VARIABLES: dict[str, Variable] = {
     "max_force": Variable(BLOCK, "f8", FORCE, "largest force component left on a grain"),
     "max_torque": Variable(BLOCK, "f8", FORCE, "largest scaled torque 2 T / d left on a grain"),
     "iterations": Variable(BLOCK, "i8", "1", "iterations of the relaxation"),
+    "step": Variable(BLOCK, "i8", "1", "number of the grid step on which a trajectory stands"),
     # rigidity, theory
     "g": Variable(BLOCK, "f8", MODULUS, "rigidity under an unloaded step strain"),
     "g_affine": Variable(BLOCK, "f8", MODULUS, "affine part of g"),

@@ -129,7 +129,7 @@ class Packing:
         return replace(self, fraction=self.fraction + step)
 
     def without(self, mask: np.ndarray) -> Packing:
-        """The packing without the grains of a (N,) mask; grains are renumbered, history must be None."""
+        """The packing without the grains of a (N,) mask, renumbered; it must have no history."""
         keep = ~mask
         if self.history is not None and mask.any():
             raise PackingError("grains cannot be removed from a packing with loaded friction")
@@ -177,7 +177,7 @@ def _matched(history: History, i: np.ndarray, j: np.ndarray, n: int) -> np.ndarr
 
 
 def rattlers(contacts: Contacts, n: int, threshold: int) -> np.ndarray:
-    """Grains with at most `threshold` contacts, removed until none is left (A, App. E); (N,) bool."""
+    """(N,) bool: grains of at most `threshold` contacts, removed until none is left: A, App. E."""
     gone = np.zeros(n, bool)
     while True:
         held = ~(gone[contacts.i] | gone[contacts.j])

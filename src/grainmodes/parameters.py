@@ -147,6 +147,16 @@ def checkpoint_at_or_below(phi: float) -> float:
     return round(int(round(phi / CHECKPOINT_SPACING, 6)) * CHECKPOINT_SPACING, 12)
 
 
+def checkpoints_up_to(phi: float) -> list[float]:
+    """The checkpoints on the way to φ, the lowest first.
+
+    >>> checkpoints_up_to(0.825)
+    [0.8, 0.81, 0.82]
+    """
+    count = round((checkpoint_at_or_below(phi) - LOWEST_CHECKPOINT) / CHECKPOINT_SPACING)
+    return [round(LOWEST_CHECKPOINT + k * CHECKPOINT_SPACING, 12) for k in range(count + 1)]
+
+
 @dataclass(frozen=True)
 class Figure:
     """What a figure shows, and what its study must ask for."""

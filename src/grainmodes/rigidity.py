@@ -34,7 +34,7 @@ from grainmodes.packing import Contacts, Packing, find_contacts, rattlers
 
 @dataclass(frozen=True)
 class Moduli:
-    """dσ_αβ/dγ, each (2, 2) in k_N d^(1/2), and the non-affine field per unit strain, (N, k) in d."""
+    """dσ_αβ/dγ, (2, 2) in k_N d^(1/2), and the non-affine field per unit strain, (N, k) in d."""
 
     affine: np.ndarray
     nonaffine: np.ndarray

@@ -78,9 +78,11 @@ def spectrum(arguments: Namespace) -> None:
 
 def point(arguments: Namespace) -> None:
     """Everything of one point, without files between."""
+    from grainmodes.point import point_block
+
     settings = _with_options(arguments)
     scene = _scene(settings, n=arguments.n, phi=arguments.phi, kt=arguments.kt)
-    block = blocks.point_block(
+    block = point_block(
         arguments.n,
         arguments.phi,
         scene.law_at(arguments.kt),

@@ -85,7 +85,6 @@ def normal_stiffness(interaction, normal, distance, overlap):
     return stiffness
 
 
-
 @kernel
 def normal_slope(normal, overlap):
     """∂f_N/∂ξ of every contact; (C,)."""

@@ -49,7 +49,7 @@ class FireSettings(NamedTuple):
 
 
 @kernel
-def advance(x, y, vx, vy, fx, fy, inverse_mass, keep, force_gain, mass_gain, kick):
+def advance(x, y, vx, vy, fx, fy, inverse_mass, keep, force_gain, mass_gain, kick, strain):
     """v → keep v + (force_gain + mass_gain/m) F, drift, clear F; return the longest drift.
 
     Clearing the forces here, while they are in the cache, saves the next pass a trip to memory.
@@ -59,7 +59,7 @@ def advance(x, y, vx, vy, fx, fy, inverse_mass, keep, force_gain, mass_gain, kic
         gain = force_gain + mass_gain * inverse_mass[i]
         vx[i] = keep * vx[i] + gain * fx[i]
         vy[i] = keep * vy[i] + gain * fy[i]
-        dx, dy = np.int64(kick * vx[i]), np.int64(kick * vy[i])
+        dx, dy = np.int64(kick * (vx[i] - strain * vy[i])), np.int64(kick * vy[i])
         x[i] += dx
         y[i] += dy
         longest = max(longest, max(abs(dx), abs(dy)))
@@ -137,7 +137,8 @@ def fire(x, y, diameter, inverse_mass, box_length, strain, normal, settings):
             time_step = min(time_step, limit)
         half = 0.5 * time_step
         gain = keep * pending + half
-        wandered += advance(x, y, vx, vy, fx, fy, inverse_mass, keep, mix, gain, time_step * units)
+        kick = time_step * units
+        wandered += advance(x, y, vx, vy, fx, fy, inverse_mass, keep, mix, gain, kick, strain)
         if wandered > reachable:
             wandered = farthest(x, y, origin_x, origin_y)
         if wandered > reachable:

@@ -117,7 +117,5 @@ def balanced(start: Trajectory, phi: float, normal, protocol: Compression) -> Re
     """
     grid = advanced(start, phi, normal, protocol)
     relax = relax_fire if protocol.relaxation == "fire" else relax_fast
-    final = relax(
-        grid.packing.at(phi), normal, protocol.force_tolerance, protocol.max_iterations
-    )
+    final = relax(grid.packing.at(phi), normal, protocol.force_tolerance, protocol.max_iterations)
     return replace(final, iterations=grid.iterations + final.iterations)

@@ -88,4 +88,3 @@ def _sliding(contacts: Contacts, u: np.ndarray) -> np.ndarray:
     middle = contacts.normal * contacts.distance[:, None] + 0.5 * step
     cross = middle[:, 1] * step[:, 0] - middle[:, 0] * step[:, 1]
     return cross / np.hypot(middle[:, 0], middle[:, 1]) + u[contacts.i, 2] + u[contacts.j, 2]
-

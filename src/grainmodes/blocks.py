@@ -1,0 +1,170 @@
+"""The stages of a study as pure functions: a block of samples in, a block of samples out.
+
+    random grains → checkpoint → packing → { rigidity, step strain, spectrum }
+
+No function here touches a file or knows a path. Every block says what made it: the parameters
+(attribute `config`), the version of the code, and the sentence of every sample that failed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+
+import numpy as np
+
+from grainmodes.dataset import Block
+from grainmodes.forces import largest, net_force
+from grainmodes.kernels.laws import interaction
+from grainmodes.packing import find_contacts
+from grainmodes.parameters import Compression, ContactLaw, Rattlers, StepStrain
+from grainmodes.protocols.compression import advanced, balanced, placed
+from grainmodes.protocols.step_strain import step_strain
+from grainmodes.rigidity import Moduli, rigidity
+from grainmodes.rows import attribute, block_of
+from grainmodes.samples import checkpoint, jammed_packing, packed, trajectory_of
+from grainmodes.spectrum import spectrum
+
+
+def compress_block(
+    n: int,
+    seeds: range,
+    phi: float,
+    compression: Compression,
+    normal: str,
+    start: Block | None,
+) -> Block:
+    """Trajectories at the checkpoint φ, from random placement or from the checkpoint `start`."""
+    law = _normal(normal)
+
+    def sample(number: int) -> dict[str, object]:
+        before = (
+            placed(n, seeds[number], law, compression)
+            if start is None
+            else trajectory_of(start, number, compression)
+        )
+        return checkpoint(advanced(before, phi, law, compression))
+
+    config = {"compression": asdict(compression), "normal": normal}
+    attributes = _attributes("trajectories", config, n=n, phi=phi)
+    failures = {} if start is None else attribute(start, "failures")
+    return block_of(seeds, sample, failures, attributes)
+
+
+def packing_block(start: Block, phi: float, compression: Compression, normal: str) -> Block:
+    """Packings at φ in their final balance, each on a branch from its checkpoint."""
+    law = _normal(normal)
+
+    def sample(number: int) -> dict[str, object]:
+        grid = advanced(trajectory_of(start, number, compression), phi, law, compression)
+        relaxed = balanced(grid, phi, law, compression)
+        return packed(relaxed.packing, law) | {
+            "phi_jamming": grid.phi_jamming,
+            "converged": relaxed.converged,
+            "iterations": relaxed.iterations,
+        }
+
+    config = {"compression": asdict(compression), "normal": normal}
+    attributes = _attributes("packings", config, n=int(start.attributes["n"]), phi=phi)
+    return block_of(start.variables["seed"], sample, attribute(start, "failures"), attributes)
+
+
+def rigidity_block(packings: Block, law: ContactLaw, rattler: Rattlers) -> Block:
+    """g, g_A, g_NA of every packing, unloaded and loaded, from one sparse solve each."""
+    rule = interaction(law)
+
+    def sample(number: int) -> dict[str, object]:
+        packing, jammed = jammed_packing(packings, number, rule)
+        force = largest(net_force(packing, find_contacts(packing), rule))
+        row = {"jammed": jammed, "converged": True, "max_force": force[0], "max_torque": force[1]}
+        if not jammed:
+            return row | dict.fromkeys([*_moduli_names(""), *_moduli_names("_loaded")], 0.0)
+        moduli = rigidity(packing, rule, _threshold(rattler, law))
+        return row | _moduli("", moduli.unloaded) | _moduli("_loaded", moduli.loaded)
+
+    config = {"law": asdict(law), "rattlers": asdict(rattler)}
+    return _response(packings, "rigidity", config, law, sample)
+
+
+def step_strain_block(packings: Block, law: ContactLaw, step: StepStrain) -> Block:
+    """g of every packing from step strains, relaxed by the full non-linear forces."""
+    rule = interaction(law)
+
+    def sample(number: int) -> dict[str, object]:
+        packing, jammed = jammed_packing(packings, number, rule)
+        if not jammed:
+            return {"g_simulated": 0.0, "g_simulated_forward": 0.0, "converged": True}
+        result = step_strain(packing, rule, step)
+        return {
+            "g_simulated": result.g,
+            "g_simulated_forward": result.g_forward,
+            "contact_changes": result.contact_changes,
+            "iterations_simulated": result.iterations,
+            "max_force_simulated": result.max_force,
+            "max_torque_simulated": result.max_torque,
+            "converged": result.converged,
+        }
+
+    config = {"law": asdict(law), "step_strain": asdict(step)}
+    return _response(packings, "step_strain", config, law, sample)
+
+
+def spectrum_block(packings: Block, law: ContactLaw, rattler: Rattlers, kind: str) -> Block:
+    """Eigenvalues of every packing; with kind = "modes" also ψ^R, p and the residual."""
+    rule = interaction(law)
+
+    def sample(number: int) -> dict[str, object]:
+        packing, jammed = jammed_packing(packings, number, rule)
+        columns = packing.n * (3 if law.frictional else 2)
+        if not (jammed or rattler.keep):
+            return {"eigenvalue": _padded(np.zeros(0), columns), "converged": True}
+        threshold = _threshold(rattler, law)
+        result = spectrum(packing, rule, threshold, rattler.keep, kind == "modes")
+        row = {
+            "eigenvalue": _padded(result.eigenvalue, columns),
+            "mode_count": len(result.eigenvalue),
+            "converged": True,
+        }
+        if kind != "modes":
+            return row
+        return row | {
+            "psi_rotational": _padded(result.psi_rotational, columns),
+            "participation_ratio": _padded(result.participation_ratio, columns),
+            "residual": result.residual,
+        }
+
+    config = {"law": asdict(law), "rattlers": asdict(rattler), "spectrum": kind}
+    return _response(packings, "spectrum", config, law, sample)
+
+
+def _response(packings: Block, stage: str, config: dict, law: ContactLaw, sample) -> Block:
+    """The block of an observable of `packings`, which carries their parameters along."""
+    point = {name: packings.attributes[name] for name in ("n", "phi")} | {"kt": law.kt}
+    attributes = _attributes(stage, attribute(packings, "config") | config, **point)
+    failures = attribute(packings, "failures")
+    return block_of(packings.variables["seed"], sample, failures, attributes)
+
+
+def _attributes(stage: str, config: dict, **point: float) -> dict[str, object]:
+    return {"title": f"grainmodes: {stage}", "stage": stage, "config": config} | point
+
+
+def _normal(name: str):
+    return interaction(ContactLaw(normal=name)).normal
+
+
+def _threshold(rattler: Rattlers, law: ContactLaw) -> int:
+    """Z_Th; without friction a grain with two contacts is a rattler whatever is asked."""
+    return rattler.threshold if law.frictional else max(rattler.threshold, 2)
+
+
+def _padded(values: np.ndarray, length: int) -> np.ndarray:
+    return np.concatenate([values, np.full(length - len(values), np.nan)])
+
+
+def _moduli_names(suffix: str) -> tuple[str, str, str]:
+    return f"g{suffix}", f"g_affine{suffix}", f"g_nonaffine{suffix}"
+
+
+def _moduli(suffix: str, moduli: Moduli) -> dict[str, float]:
+    values = (moduli.g, moduli.g_affine, moduli.g_nonaffine)
+    return dict(zip(_moduli_names(suffix), values, strict=True))

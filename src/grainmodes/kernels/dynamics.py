@@ -1,0 +1,297 @@
+"""Dynamics of grains with tangential history and damping: A (1)–(9), Appendix B.
+
+Velocity Verlet whose forces see the half-kicked velocity Q̇, A (B7)–(B9):
+
+    Q̇ = q̇ + Δt f̃/2,   q → q + Δt Q̇,   f̃ = f̃(q, Q̇),   q̇ → Q̇ + Δt f̃/2
+    s → s + t·δr + δℓ  with t at the middle of the step; s = 0 where the pair does not touch
+    f = f_N n + f_T t − η (v_rel + t (w_i + w_j)),   scaled torque f_T − η (t·v_rel + w_i + w_j)
+
+with w = dℓ/dt and inertia m/2 of ℓ. Second order in q; first order in q̇ where f depends on q̇.
+Every velocity is that of q = (x, y, ℓ), in d/t_0.
+
+| symbol    | name        | shape, type            |
+| --------- | ----------- | ---------------------- |
+| q̇         | vx, vy, w   | (N,) float64           |
+| s         | spring      | (P,) float64, per pair |
+| η         | Dashpot     | NamedTuple; Undamped has none |
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from grainmodes.kernels.compiler import implements, kernel
+from grainmodes.kernels.laws import admissible, normal_response, tangential_response
+from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours, separation
+from grainmodes.kernels.repulsion import BLOCK
+
+
+class Dashpot(NamedTuple):
+    """Viscous force −η (v_N + v_T) on touching pairs, η in (m k_N)^(1/2) d^(1/4) (A)."""
+
+    viscosity: float
+
+
+class Drag(NamedTuple):
+    """Background drag −m η ṙ and −I η θ̇, η in 1/t_0 (B; C's overdamped runs)."""
+
+    rate: float
+
+
+class Undamped(NamedTuple):
+    """Newtonian dynamics (C)."""
+
+
+def pair_viscosity(damping):
+    """η of touching pairs."""
+    raise NotImplementedError("called from compiled code only")
+
+
+def drag_rate(damping):
+    """η of the background."""
+    raise NotImplementedError("called from compiled code only")
+
+
+@implements(pair_viscosity, Dashpot)
+def _dashpot_pairs(damping):
+    return damping.viscosity
+
+
+@implements(pair_viscosity, Drag)
+def _drag_pairs(damping):
+    return 0.0
+
+
+@implements(pair_viscosity, Undamped)
+def _no_pairs(damping):
+    return 0.0
+
+
+@implements(drag_rate, Dashpot)
+def _dashpot_drag(damping):
+    return 0.0
+
+
+@implements(drag_rate, Drag)
+def _drag_drag(damping):
+    return damping.rate
+
+
+@implements(drag_rate, Undamped)
+def _no_drag(damping):
+    return 0.0
+
+
+class Grains(NamedTuple):
+    """Positions (N,) int64 in 2⁻⁶⁴ L; velocities, forces and mass (N,) float64."""
+
+    x: np.ndarray
+    y: np.ndarray
+    vx: np.ndarray
+    vy: np.ndarray
+    w: np.ndarray
+    fx: np.ndarray
+    fy: np.ndarray
+    torque: np.ndarray
+    rotation: np.ndarray
+    mass: np.ndarray
+    diameter: np.ndarray
+
+
+class Stop(NamedTuple):
+    """When to stop: unrest < tolerance, looked at every LOOK steps, or after `steps`."""
+
+    tolerance: float
+    steps: int
+
+
+LOOK = 20
+
+
+TINY = 1e-300
+"""Overlap lent to a pair that does not touch, so that its (unused) force is a number."""
+
+
+@kernel
+def pair_forces(
+    grains, box_length, strain, time_step, pairs, begin, interaction, damping, spring, pair_force
+):
+    """Advance the springs of pairs begin … and write (f_x, f_y, scaled torque) on grain i."""
+    scale = box_length * RESOLUTION
+    left, right, reach = pairs.left, pairs.right, pairs.reach
+    x, y, vx, vy, w = grains.x, grains.y, grains.vx, grains.vy, grains.w
+    viscosity = pair_viscosity(damping)
+    for k in range(pair_force.shape[1]):
+        pair = begin + k
+        i, j = left[pair], right[pair]
+        dx, dy = separation(x, y, i, j, scale, strain)
+        ux, uy, spin = vx[i] - vx[j], vy[i] - vy[j], w[i] + w[j]
+        distance = math.sqrt(dx * dx + dy * dy)
+        overlap = reach[pair] - distance
+        touch = 1.0 if overlap > 0.0 else 0.0
+        overlap = max(overlap, TINY)
+        mx, my = dx - 0.5 * time_step * ux, dy - 0.5 * time_step * uy
+        slide = (my * ux - mx * uy) / math.sqrt(mx * mx + my * my) + spin
+        s = admissible(
+            interaction.tangential,
+            interaction.normal,
+            overlap,
+            touch * (spring[pair] + time_step * slide),
+        )
+        spring[pair] = s
+        f_n, _ = normal_response(interaction.normal, overlap)
+        f_t, _, _ = tangential_response(interaction.tangential, interaction.normal, overlap, s)
+        nx, ny = dx / distance, dy / distance
+        f_n = touch * (f_n - viscosity * (nx * ux + ny * uy))
+        f_t = touch * (f_t - viscosity * (ny * ux - nx * uy + spin))
+        pair_force[0, k] = f_n * nx + f_t * ny
+        pair_force[1, k] = f_n * ny - f_t * nx
+        pair_force[2, k] = f_t
+
+
+@kernel
+def add_to_grains(pairs, begin, end, pair_force, fx, fy, torque):
+    """Add the pair forces of grains begin … end − 1 to both partners."""
+    first, right = pairs.first, pairs.right
+    base = first[begin]
+    for i in range(begin, end):
+        sum_x, sum_y, sum_t = 0.0, 0.0, 0.0
+        for pair in range(first[i], first[i + 1]):
+            j = right[pair]
+            px, py, pt = (
+                pair_force[0, pair - base],
+                pair_force[1, pair - base],
+                pair_force[2, pair - base],
+            )
+            sum_x += px
+            sum_y += py
+            sum_t += pt
+            fx[j] -= px
+            fy[j] -= py
+            torque[j] += pt
+        fx[i] += sum_x
+        fy[i] += sum_y
+        torque[i] += sum_t
+
+
+@kernel
+def contact_pass(
+    grains, box_length, strain, time_step, pairs, interaction, damping, spring, scratch
+):
+    """Advance all springs and add all contact forces; forces must have been cleared."""
+    n = grains.x.shape[0]
+    for begin in range(0, n, BLOCK):
+        end = min(begin + BLOCK, n)
+        low, high = pairs.first[begin], pairs.first[end]
+        room = scratch[:, : high - low]
+        pair_forces(
+            grains, box_length, strain, time_step, pairs, low, interaction, damping, spring, room
+        )
+        add_to_grains(pairs, begin, end, room, grains.fx, grains.fy, grains.torque)
+
+
+@kernel
+def kick_and_drift(grains, half_step, time_step, units, strain):
+    """First half kick and drift; clear the forces; return the longest drift in 2⁻⁶⁴ L."""
+    kick = time_step * units
+    longest = np.int64(0)
+    for i in range(grains.x.shape[0]):
+        gain = half_step / grains.mass[i]
+        grains.vx[i] += gain * grains.fx[i]
+        grains.vy[i] += gain * grains.fy[i]
+        grains.w[i] += 2.0 * gain * grains.torque[i]
+        dx = np.int64(kick * (grains.vx[i] - strain * grains.vy[i]))
+        dy = np.int64(kick * grains.vy[i])
+        grains.x[i] += dx
+        grains.y[i] += dy
+        grains.rotation[i] += time_step * grains.w[i]
+        longest = max(longest, max(abs(dx), abs(dy)))
+        grains.fx[i] = 0.0
+        grains.fy[i] = 0.0
+        grains.torque[i] = 0.0
+    return longest
+
+
+@kernel
+def second_kick(grains, half_step, damping):
+    """Add the drag to the forces and give the second half kick."""
+    rate = drag_rate(damping)
+    for i in range(grains.x.shape[0]):
+        mass = grains.mass[i]
+        gain = half_step / mass
+        grains.fx[i] -= rate * mass * grains.vx[i]
+        grains.fy[i] -= rate * mass * grains.vy[i]
+        grains.torque[i] -= 0.5 * rate * mass * grains.w[i]
+        grains.vx[i] += gain * grains.fx[i]
+        grains.vy[i] += gain * grains.fy[i]
+        grains.w[i] += 2.0 * gain * grains.torque[i]
+
+
+@kernel
+def unrest(grains):
+    """max over grains of the force and velocity components, in k_N d^(3/2) and d/t_0.
+
+    A's criterion, force with damping alone, is met by a slow overdamped creep too, in which the
+    contact forces still outweigh F_Th many times and only the dashpots hide it.
+    """
+    force = max(np.abs(grains.fx).max(), np.abs(grains.fy).max())
+    velocity = max(np.abs(grains.vx).max(), np.abs(grains.vy).max())
+    turning = max(np.abs(grains.torque).max(), np.abs(grains.w).max())
+    return max(force, max(velocity, turning))
+
+
+@kernel
+def carried(old, spring, new):
+    """The springs of the old pairs that are still on the list, in the order of the new one."""
+    moved = np.zeros(new.left.shape[0])
+    for i in range(new.first.shape[0] - 1):
+        for pair in range(new.first[i], new.first[i + 1]):
+            for before in range(old.first[i], old.first[i + 1]):
+                if old.right[before] == new.right[pair]:
+                    moved[pair] = spring[before]
+    return moved
+
+
+@kernel
+def scratch_for(pairs):
+    """Room for the pair forces of the fullest block; shape (3, P_max)."""
+    n = pairs.first.shape[0] - 1
+    widest = 0
+    for begin in range(0, n, BLOCK):
+        widest = max(widest, pairs.first[min(begin + BLOCK, n)] - pairs.first[begin])
+    return np.empty((3, widest))
+
+
+@kernel
+def integrate(
+    grains, box_length, strain, pairs, spring, interaction, damping, time_step, skin, stop
+):
+    """Integrate until the unrest is below stop.tolerance, or for stop.steps steps.
+
+    Args: grains (changed in place); pairs, spring the Verlet list and its springs.
+    Returns: (pairs, spring, steps taken, unrest).
+    """
+    units = 1.0 / (box_length * RESOLUTION)
+    half_step = 0.5 * time_step
+    reachable = np.int64(0.5 / math.sqrt(2.0) * skin * units / (1.0 + abs(strain)))
+    scratch = scratch_for(pairs)
+    wandered, steps = np.int64(0), 0
+    contact_pass(grains, box_length, strain, 0.0, pairs, interaction, damping, spring, scratch)
+    left = np.inf
+    while steps < stop.steps and left >= stop.tolerance:
+        steps += 1
+        wandered += kick_and_drift(grains, half_step, time_step, units, strain)
+        if wandered > reachable:
+            fresh = find_neighbours(grains.x, grains.y, grains.diameter, box_length, strain, skin)
+            spring = carried(pairs, spring, fresh)
+            pairs, scratch, wandered = fresh, scratch_for(fresh), np.int64(0)
+        contact_pass(
+            grains, box_length, strain, time_step, pairs, interaction, damping, spring, scratch
+        )
+        second_kick(grains, half_step, damping)
+        if steps % LOOK == 0 or steps == stop.steps:
+            left = unrest(grains)
+    return pairs, spring, steps, left

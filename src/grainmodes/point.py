@@ -1,0 +1,30 @@
+"""One point of the grid from nothing to its numbers, in memory: what a study does in files."""
+
+from __future__ import annotations
+
+from grainmodes import blocks
+from grainmodes.dataset import Block
+from grainmodes.ensemble.point import merge_blocks
+from grainmodes.parameters import ContactLaw, Protocol, checkpoints_up_to
+
+
+def point_block(
+    n: int, phi: float, law: ContactLaw, seeds: range, protocol: Protocol, spectrum: str
+) -> Block:
+    """Every observable of the point (n, φ, k_T) for some seeds.
+
+    The packings go through the same checkpoints as in a study, so the numbers are the same.
+    `spectrum` is "none", "eigenvalues" or "modes".
+    """
+    start = None
+    for checkpoint in checkpoints_up_to(phi):
+        start = blocks.compress_block(n, seeds, checkpoint, protocol.compression, law.normal, start)
+    packings = blocks.packing_block(start, phi, protocol.compression, law.normal)
+    parts = {
+        "packings": packings,
+        "rigidity": blocks.rigidity_block(packings, law, protocol.rattlers),
+        "step_strain": blocks.step_strain_block(packings, law, protocol.step_strain),
+    }
+    if spectrum != "none":
+        parts["spectrum"] = blocks.spectrum_block(packings, law, protocol.rattlers, spectrum)
+    return merge_blocks(parts)
