@@ -23,18 +23,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from grainmodes.binning import occupation
+
 TRANSLATIONS = 2
 """Zero modes of every rigid sample under periodic boundaries."""
 
 ROUND_OFF = 1e-14
 """|lambda| / lambda_max below which a symmetric eigensolver cannot tell an eigenvalue from zero."""
-
-LOGARITHMIC_BINS = 50
-HIGHEST_BINS = 10
-HIGHEST_DIVISIONS = 500
-ROTATIONAL_DIVISIONS = 100
-ROTATIONAL_WINDOW = (0.1, 2.0)
-"""A's bins, Sec. IV B: the window is in units of omega_R t_0 = (k_T / k_N)^(1/2)."""
 
 
 class Average(NamedTuple):
@@ -90,65 +85,6 @@ def frequencies(eigenvalue: np.ndarray) -> Frequencies:
     negative = present & ~zero & (eigenvalue < 0.0)
     squared = np.where(present & ~zero & ~negative, eigenvalue, np.nan)
     return Frequencies(np.sqrt(squared), zero.sum(axis=1), negative.sum(axis=1))
-
-
-def bin_edges(kappa: float, lowest: float, highest: float, fineness: float = 1.0) -> np.ndarray:
-    """Edges of A's bins over the range of the data (A, Sec. IV B).
-
-    50 logarithmic intervals; the range of the ten highest is divided anew into 500 linear ones, and
-    the part of the range within 0.1 kappa^(1/2) < omega t_0 < 2 kappa^(1/2) into 100 linear ones.
-
-    Args:
-        kappa: k_T / k_N; 0 has no rotational window.
-        lowest, highest: 1/t_0, 0 < lowest < highest, the range of the data.
-        fineness: factor on the numbers 500 and 100, for ensembles of fewer modes than A's.
-
-    Returns:
-        (B + 1,) ascending; the first is `lowest`, the last `highest`.
-
-    Raises:
-        ValueError: not 0 < lowest < highest.
-    """
-    if not 0.0 < lowest < highest:
-        raise ValueError(f"bins from {lowest} to {highest}: expected 0 < lowest < highest")
-    edges = np.geomspace(lowest, highest, LOGARITHMIC_BINS + 1)
-    edges = _redivided(edges, edges[-1 - HIGHEST_BINS], highest, fineness * HIGHEST_DIVISIONS)
-    start, stop = np.sqrt(kappa) * np.array(ROTATIONAL_WINDOW)
-    start, stop = max(start, lowest), min(stop, highest)
-    if start < stop:
-        edges = _redivided(edges, start, stop, fineness * ROTATIONAL_DIVISIONS)
-    return edges
-
-
-def _redivided(edges: np.ndarray, start: float, stop: float, divisions: float) -> np.ndarray:
-    linear = np.linspace(start, stop, max(1, round(divisions)) + 1)
-    return np.concatenate([edges[edges < start], linear, edges[edges > stop]])
-
-
-def bin_centres(edges: np.ndarray) -> np.ndarray:
-    """Geometric middle of each bin, (B,): the middle on the logarithmic axes of the figures."""
-    return np.sqrt(edges[:-1] * edges[1:])
-
-
-def occupation(
-    frequency: np.ndarray, edges: np.ndarray, weight: np.ndarray | None = None
-) -> np.ndarray:
-    """Modes of each sample in each bin, or the sum of their weights.
-
-    Args:
-        frequency: (S, M) 1/t_0, NaN where there is no vibration.
-        edges: (B + 1,) 1/t_0; the last bin includes its upper edge.
-        weight: (S, M), a number per mode; None counts the modes.
-
-    Returns:
-        (S, B) float.
-    """
-    weight = np.ones_like(frequency) if weight is None else weight
-    rows = [
-        np.histogram(row[np.isfinite(row)], edges, weights=of[np.isfinite(row)])[0]
-        for row, of in zip(frequency, weight, strict=True)
-    ]
-    return np.array(rows).reshape(len(frequency), len(edges) - 1)
 
 
 def density_of_states(frequency: np.ndarray, n: int, edges: np.ndarray) -> Average:

@@ -80,16 +80,17 @@ def test_a_seed_that_an_observable_lacks_is_not_converged_and_not_dropped():
     assert np.isfinite(merged.variables["pressure"]).all()
 
 
-def test_failures_keep_their_observable():
+def test_failures_keep_the_observable_in_which_they_began():
     merged = merge_blocks(
         {
             "a": block("packings", 0, 2, failures={"1": "no balance"}),
-            "b": block("rigidity", 0, 2, failures={"1": "no packing", "0": "singular"}),
+            "b": block("rigidity", 0, 2, failures={"1": "no balance", "0": "singular"}),
+            "c": block("spectrum", 0, 2, failures={"1": "no balance", "0": "no memory"}),
         }
     )
     assert merged.attributes["failures"] == {
-        "0": "rigidity: singular",
-        "1": "packings: no balance; rigidity: no packing",
+        "0": "rigidity: singular; spectrum: no memory",
+        "1": "packings: no balance",
     }
 
 

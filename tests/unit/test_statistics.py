@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from grainmodes import statistics
+from grainmodes import binning, statistics
 
 
 def test_average_of_three_samples_by_hand():
@@ -57,14 +57,14 @@ def test_free_rattlers_are_zero_modes_and_a_sample_without_modes_has_none():
 
 
 def test_bins_without_friction_are_40_logarithmic_and_500_linear():
-    edges = statistics.bin_edges(0.0, 1e-5, 1.0)
+    edges = binning.bin_edges(0.0, 1e-5, 1.0)
     assert len(edges) == 40 + 500 + 1
     assert_allclose(edges[:41], 10.0 ** np.linspace(-5, -1, 41))
     assert_allclose(edges[40:], np.linspace(0.1, 1.0, 501))
 
 
 def test_rotational_window_is_redivided_into_100_linear_bins():
-    edges = statistics.bin_edges(1e-4, 1e-5, 1.0)
+    edges = binning.bin_edges(1e-4, 1e-5, 1.0)
     window = edges[(edges > 1e-3 * (1 - 1e-12)) & (edges < 2e-2 * (1 + 1e-12))]
     assert_allclose(window, np.linspace(1e-3, 2e-2, 101))
     assert_allclose(edges[20], 1e-3)
@@ -74,13 +74,13 @@ def test_rotational_window_is_redivided_into_100_linear_bins():
 @pytest.mark.parametrize("kappa", [0.0, 1e-8, 1e-4, 1.0, 10.0, 1e6])
 @pytest.mark.parametrize("fineness", [1.0, 0.1])
 def test_bins_ascend_over_exactly_the_range_of_the_data(kappa, fineness):
-    edges = statistics.bin_edges(kappa, 0.013, 4.07, fineness)
+    edges = binning.bin_edges(kappa, 0.013, 4.07, fineness)
     assert (edges[0], edges[-1]) == (0.013, 4.07)
     assert (np.diff(edges) > 0).all()
 
 
 def test_fineness_scales_the_numbers_of_linear_bins():
-    edges = statistics.bin_edges(1e-4, 1e-5, 1.0, fineness=0.1)
+    edges = binning.bin_edges(1e-4, 1e-5, 1.0, fineness=0.1)
     assert ((edges >= 0.1 * (1 - 1e-12)) & (edges <= 1.0)).sum() == 51
     assert ((edges > 1e-3 * (1 - 1e-12)) & (edges < 2e-2 * (1 + 1e-12))).sum() == 11
 
@@ -88,7 +88,7 @@ def test_fineness_scales_the_numbers_of_linear_bins():
 @pytest.mark.parametrize("limits", [(1.0, 1.0), (0.0, 1.0), (2.0, 1.0)])
 def test_bins_need_a_range(limits):
     with pytest.raises(ValueError, match="expected 0 < lowest < highest"):
-        statistics.bin_edges(1.0, *limits)
+        binning.bin_edges(1.0, *limits)
 
 
 def test_density_of_states_by_hand():
@@ -104,7 +104,7 @@ def test_density_of_states_integrates_to_the_fraction_of_modes():
     eigenvalue = np.hstack([np.zeros((3, 2)), draws.uniform(1e-9, 3.0, (3, 40))])
     eigenvalue[2, 30:] = np.nan
     frequency = statistics.frequencies(eigenvalue).frequency
-    edges = statistics.bin_edges(1e-4, np.nanmin(frequency), np.nanmax(frequency))
+    edges = binning.bin_edges(1e-4, np.nanmin(frequency), np.nanmax(frequency))
     density = statistics.density_of_states(frequency, 16, edges)
     modes = (40 + 40 + 28) / 3
     assert_allclose((density.mean * np.diff(edges)).sum(), modes / (3 * 16))

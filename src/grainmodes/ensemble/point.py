@@ -121,10 +121,10 @@ def _decoded(text: object) -> object:
 
 
 def _failures(stages: dict[str, dict[str, Block]]) -> dict[str, str]:
-    """Seed → what failed, in every observable."""
-    sentences: dict[str, list[str]] = {}
+    """Seed → what failed; a sentence that later observables repeat stands once."""
+    sentences: dict[str, dict[str, str]] = {}
     for stage, members in stages.items():
         for block in members.values():
             for seed, sentence in _decoded(block.attributes.get("failures", "{}")).items():
-                sentences.setdefault(seed, []).append(f"{stage}: {sentence}")
-    return {seed: "; ".join(parts) for seed, parts in sentences.items()}
+                sentences.setdefault(seed, {}).setdefault(sentence, f"{stage}: {sentence}")
+    return {seed: "; ".join(parts.values()) for seed, parts in sentences.items()}

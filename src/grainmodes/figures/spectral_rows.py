@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from grainmodes import statistics
+from grainmodes import binning, statistics
 from grainmodes.ensemble.averages import Spectrum, area_fractions_with_spectra, spectrum
 from grainmodes.figures.selection import Options, largest_or
 
@@ -55,16 +55,16 @@ def _bins(modes: Spectrum, n: int, kappa: float, fineness: float) -> pd.DataFram
     if not np.isfinite(found.frequency).any():
         return pd.DataFrame(columns=[*BINS, *DENSITY, *FRACTION])
     lowest, highest = np.nanmin(found.frequency), np.nanmax(found.frequency)
-    edges = statistics.bin_edges(kappa, lowest, highest, fineness)
+    edges = binning.bin_edges(kappa, lowest, highest, fineness)
     density = statistics.density_of_states(found.frequency, n, edges)
     psi = statistics.mode_average(modes.psi_rotational, found.frequency, edges)
     return pd.DataFrame(
         {
-            "omega": statistics.bin_centres(edges),
+            "omega": binning.bin_centres(edges),
             "omega_low": edges[:-1],
             "omega_high": edges[1:],
             "samples": density.samples,
-            "modes": statistics.occupation(found.frequency, edges).sum(axis=0).astype(int),
+            "modes": binning.occupation(found.frequency, edges).sum(axis=0).astype(int),
             "zero_modes": found.zero.mean(),
             "negative_modes": found.negative.mean(),
             "density": density.mean,
