@@ -13,7 +13,6 @@ from grainmodes.figures.selection import Options, curves, largest_or, positive
 __all__ = ["COLUMNS", "draw", "table"]
 
 KINDS = {"theory": "g", "simulation": "g_simulated"}
-SYMBOLS = "symbols: simulation, lines: theory"
 
 
 def table(ensemble, options: Options) -> pd.DataFrame:
@@ -37,8 +36,14 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
         appearance.add_to_legend(axes, appearance.fraction(phi), colour, marker)
     axes.set(xscale="log", xlabel="$k_T / k_N$", ylabel=f"$G$ / ({appearance.MODULUS})")
     axes.legend(title=r"$\phi$", loc="upper left", ncols=2)
-    simulated = "simulation" in set(table["kind"])
-    appearance.write_caption(figure, table, note=SYMBOLS if simulated else "")
+    appearance.write_caption(figure, table, note=_note(table))
+
+
+def _note(table: pd.DataFrame) -> str:
+    parts = ["symbols: simulation"] if "simulation" in set(table["kind"]) else ["symbols: theory"]
+    parts += ["lines: theory"]
+    parts += ["dashes: $k_T = 0$"] if (table["kt"] == 0).any() else []
+    return ", ".join(parts)
 
 
 def _curve(axes: Axes, of: pd.DataFrame, colour, marker: str) -> None:

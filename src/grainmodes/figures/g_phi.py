@@ -13,6 +13,7 @@ from grainmodes.figures.selection import Options, curves, largest_or
 __all__ = ["COLUMNS", "draw", "table"]
 
 KINDS = {"theory": "g", "simulation": "g_simulated"}
+SYMBOLS = "open symbols: theory, dots: simulation"
 LARGEST, SMALLEST, DOT = 8.5, 6.5, 1.7
 """Sizes of symbols: open ones shrink with k_T, so that those which coincide are seen."""
 
@@ -36,21 +37,12 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
         _points(axes, of[of["kind"] == "simulation"], colour, "o", markersize=DOT)
         appearance.add_to_legend(axes, f"${appearance.power(kappa)}$", colour, marker, mfc="none")
     axes.set(xlabel=r"$\phi$", ylabel=f"$G$ / ({appearance.MODULUS})")
-    axes.add_artist(axes.legend(title="$k_T / k_N$", loc="upper left", ncols=2))
-    appearance.write_caption(figure, table)
-    _explain_symbols(axes, "simulation" in set(table["kind"]))
+    axes.legend(title="$k_T / k_N$", loc="upper left", ncols=2)
+    simulated = "simulation" in set(table["kind"])
+    appearance.write_caption(figure, table, note=SYMBOLS if simulated else "")
 
 
 def _points(axes: Axes, of: pd.DataFrame, colour, marker: str, **style) -> None:
     axes.errorbar(
         of["phi"], of["rigidity"], of["standard_error"], fmt=marker, color=colour, **style
     )
-
-
-def _explain_symbols(axes: Axes, simulated: bool) -> None:
-    shown = len(axes.get_legend_handles_labels()[1])
-    appearance.add_to_legend(axes, "theory", "0.3", "o", markersize=6, mfc="none")
-    if simulated:
-        appearance.add_to_legend(axes, "simulation", "0.3", "o", markersize=DOT)
-    handles, labels = axes.get_legend_handles_labels()
-    axes.legend(handles[shown:], labels[shown:], loc="lower right")
