@@ -69,6 +69,14 @@ def test_rigidity_is_the_mean_over_samples_with_its_error(ensemble):
     assert (row["samples"], row["fraction_jammed"]) == (4, 1.0)
 
 
+def test_the_unit_of_a_modulus_follows_the_contact_law(tmp_path):
+    point = synthetic.point(tmp_path, 16, 0.9, 1.0, 2)
+    for law, label in {"hertz": "$G$ / $(k_N d^{1/2})$", "harmonic": "$G$ / $k_N$"}.items():
+        write_ensemble([point], tmp_path / f"{law}.nc", {"contact_law": {"normal": law}})
+        with open_ensemble(tmp_path / f"{law}.nc") as dataset:
+            assert appearance.modulus_label("$G$", g_phi.table(dataset, Options())) == label
+
+
 def test_unjammed_points_are_drawn_at_zero(ensemble):
     table = g_phi.table(ensemble, Options())
     below = table[table["phi"] == 0.83]

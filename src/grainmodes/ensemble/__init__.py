@@ -1,7 +1,7 @@
 """From blocks of samples to points, from points to one ensemble; its averages: `averages`."""
 
 from grainmodes.ensemble.point import gather_point, merge_blocks
-from grainmodes.ensemble.reading import open_ensemble
+from grainmodes.ensemble.reading import normal_law, open_ensemble
 from grainmodes.ensemble.study import write_ensemble
 
-__all__ = ["gather_point", "merge_blocks", "open_ensemble", "write_ensemble"]
+__all__ = ["gather_point", "merge_blocks", "normal_law", "open_ensemble", "write_ensemble"]

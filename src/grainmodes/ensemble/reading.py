@@ -1,11 +1,13 @@
-"""Opening an ensemble."""
+"""Opening an ensemble, and what its configuration says of it."""
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grainmodes.dataset import BlockError
+from grainmodes.parameters import ContactLaw
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -36,3 +38,9 @@ def open_ensemble(path: str | Path) -> xr.Dataset:
         ensemble.close()
         raise BlockError(f"{path}: not an ensemble, it lacks the dimension {missing[0]}")
     return ensemble
+
+
+def normal_law(ensemble: xr.Dataset) -> str:
+    """The normal contact law, on which units depend; "hertz" where the configuration is silent."""
+    config = json.loads(ensemble.attrs["config"])
+    return config.get("contact_law", {}).get("normal", ContactLaw.normal)

@@ -10,7 +10,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-MODULUS = r"$k_N d^{1/2}$"
+MODULUS = {"hertz": r"$(k_N d^{1/2})$", "harmonic": "$k_N$"}
+"""Unit of a modulus under each normal contact law."""
+
 TRANSLATIONAL, ROTATIONAL = "#b2182b", "#2166ac"
 """Red and blue as in A, of a pair that the colour-blind tell apart."""
 
@@ -35,6 +37,11 @@ def draw_cloud(axes: Axes, x, y, error, colour, marker: str, **style) -> None:
     axes.errorbar(
         x, y, error, fmt=marker, color=colour, ecolor=faint, markersize=1.8, elinewidth=0.5, **style
     )
+
+
+def modulus_label(symbol: str, table) -> str:
+    """Label of an axis: a modulus over its unit under the contact law of the table."""
+    return f"{symbol} / {MODULUS[table['law'].iloc[0]]}"
 
 
 def power(value: float) -> str:

@@ -34,7 +34,7 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     for phi, colour, marker in list(appearance.series(phis))[::-1]:
         _curve(axes, table[table["phi"] == phi], colour, marker)
         appearance.add_to_legend(axes, appearance.fraction(phi), colour, marker)
-    axes.set(xscale="log", xlabel="$k_T / k_N$", ylabel=f"$G$ / ({appearance.MODULUS})")
+    axes.set(xscale="log", xlabel="$k_T / k_N$", ylabel=appearance.modulus_label("$G$", table))
     axes.legend(title=r"$\phi$", loc="upper left", ncols=2)
     appearance.write_caption(figure, table, note=_note(table))
 

@@ -48,4 +48,4 @@ def _panel(axes: Axes, of: pd.DataFrame) -> None:
             at["phi"], at["rigidity"], at["standard_error"], fmt=marker + "-", color=colour
         )
         appearance.add_to_legend(axes, f"${appearance.power(kappa)}$", colour, marker)
-    axes.set(xlabel=r"$\phi$", ylabel=rf"$G_{{\rm NA}}$ / ({appearance.MODULUS})")
+    axes.set(xlabel=r"$\phi$", ylabel=appearance.modulus_label(r"$G_{\rm NA}$", of))

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import pandas as pd
 
+from grainmodes.ensemble import normal_law
 from grainmodes.ensemble.averages import averages
 
+UNIT = "k_N d^(1/2); harmonic: k_N"
+
 COLUMNS = {
+    "law": ("-", "normal contact law"),
     "n": ("1", "number of grains N"),
     "phi": ("1", "area fraction"),
     "kt": ("k_N", "tangential stiffness k_T"),
     "kind": ("-", "which G"),
-    "rigidity": ("k_N d^(1/2)", "mean over the converged samples; unjammed ones count as 0"),
-    "standard_error": ("k_N d^(1/2)", "standard error of the mean"),
+    "rigidity": (UNIT, "mean over the converged samples; unjammed ones count as 0"),
+    "standard_error": (UNIT, "standard error of the mean"),
     "samples": ("1", "number of converged samples"),
     "fraction_jammed": ("1", "fraction of these samples that is jammed"),
 }
@@ -31,7 +35,7 @@ def rows(ensemble, kinds: dict[str, str], n: float) -> pd.DataFrame:
     present = {kind: name for kind, name in kinds.items() if name in ensemble}
     means = averages(ensemble, list(present.values()) or list(kinds.values()))
     parts = [_one(means, kind, name) for kind, name in present.items()]
-    table = pd.concat(parts, ignore_index=True)
+    table = pd.concat(parts, ignore_index=True).assign(law=normal_law(ensemble))[list(COLUMNS)]
     return table[(table["n"] == n) & (table["samples"] > 0)].reset_index(drop=True)
 
 
@@ -41,4 +45,4 @@ def _one(means: pd.DataFrame, kind: str, name: str) -> pd.DataFrame:
         f"{name}_standard_error": "standard_error",
         f"{name}_samples": "samples",
     }
-    return means.assign(kind=kind).rename(columns=renamed)[list(COLUMNS)]
+    return means.assign(kind=kind).rename(columns=renamed)
