@@ -109,13 +109,20 @@ def test_only_sharp_coulomb_gives_displacement_away(normal):
             assert left == pytest.approx(expected, rel=1e-13)
 
 
-def test_a_law_is_a_type():
-    assert interaction(ContactLaw("hertz", "elastic", 0.1)) == (Hertz(1.0), Elastic(0.1))
-    assert interaction(ContactLaw("harmonic", "elastic", 2)) == (Harmonic(1.0), Elastic(2.0))
-    smoothed = interaction(ContactLaw("hertz", "smoothed_coulomb", 0.1, 10.0)).tangential
-    assert type(smoothed) is SmoothedCoulomb and smoothed == (0.1, 10.0)
-    sharp = interaction(ContactLaw("hertz", "sharp_coulomb", 0.1, 1.0)).tangential
-    assert type(sharp) is SharpCoulomb and sharp == (0.1, 1.0)
+@pytest.mark.parametrize(
+    ("law", "normal", "tangential"),
+    [
+        (ContactLaw("hertz", "elastic", 0.1), Hertz(1.0), Elastic(0.1)),
+        (ContactLaw("harmonic", "elastic", 2), Harmonic(1.0), Elastic(2.0)),
+        (ContactLaw("hertz", "smoothed_coulomb", 0.1, 9), Hertz(1.0), SmoothedCoulomb(0.1, 9.0)),
+        (ContactLaw("harmonic", "sharp_coulomb", 1, 0.5), Harmonic(1.0), SharpCoulomb(1.0, 0.5)),
+    ],
+)
+def test_a_law_is_a_type(law, normal, tangential):
+    both = interaction(law)
+    # Named tuples of different types are equal if their numbers are: compare the types as well.
+    assert (type(both.normal), both.normal) == (type(normal), normal)
+    assert (type(both.tangential), both.tangential) == (type(tangential), tangential)
 
 
 @pytest.mark.parametrize("tangential", ["elastic", "smoothed_coulomb", "sharp_coulomb"])
