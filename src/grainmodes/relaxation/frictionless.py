@@ -32,7 +32,7 @@ STABILITY = 0.9
 SKIN = 0.2
 """Verlet skin in d."""
 
-BASIN = 1e-4
+BASIN = 1e-5
 """Forces relative to f̄ at which Newton is first tried."""
 
 FLOPPY_FORCE = 1e-10

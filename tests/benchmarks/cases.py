@@ -1,0 +1,136 @@
+"""What is timed: each case prepares, runs once to compile, and returns seconds of CPU time.
+
+CPU time of one thread. The number in brackets in a name is N. A case runs in a process of its own,
+so that the peak memory printed beside it is its own too.
+"""
+
+from __future__ import annotations
+
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+from grainmodes import blocks
+from grainmodes.dataset import write_block
+from grainmodes.kernels.dynamics import Dashpot, Stop
+from grainmodes.kernels.fire import FireSettings, fire
+from grainmodes.kernels.laws import Hertz, interaction
+from grainmodes.parameters import Compression, ContactLaw, checkpoints_up_to, phi_at_step
+from grainmodes.protocols.compression import advanced, balanced, placed
+from grainmodes.relaxation.dynamics import move
+from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
+from grainmodes.rigidity import rigidity
+from grainmodes.spectrum import spectrum
+
+HERTZ = Hertz(1.0)
+PROTOCOL = Compression()
+
+
+def cpu(work, *arguments) -> float:
+    """CPU seconds of one call."""
+    start = time.process_time()
+    work(*arguments)
+    return time.process_time() - start
+
+
+def quenched(n: int, phi: float, tolerance: float = 1e-7):
+    """A packing at φ straight from random placement: good enough to time kernels on."""
+    packing = placed(n, 0, HERTZ, PROTOCOL).packing.at(phi)
+    return relax_loosely(packing, HERTZ, tolerance, 0.0, 20_000).packing
+
+
+def balanced_at(n: int, phi: float):
+    """A packing in final balance, quenched."""
+    return relax_fast(quenched(n, phi), HERTZ, 1e-14, 1_000_000).packing
+
+
+def compression_in_large_steps(n: int) -> float:
+    """φ 0.80 → 0.90 in 100 steps of 1e-3, each to max|F| < 1e-10."""
+    start = advanced(placed(n, 0, HERTZ, PROTOCOL), 0.8, HERTZ, PROTOCOL).packing
+
+    def climb(packing, steps):
+        for k in range(1, steps + 1):
+            packing = relax_fast(
+                packing.at(phi_at_step(0.8, 1e-3, k)), HERTZ, 1e-10, 10_000_000
+            ).packing
+
+    climb(start, 1)
+    return cpu(climb, start, 100)
+
+
+def fire_step(n: int) -> float:
+    """Force and update of FIRE per grain and step, in ns, near balance at φ = 0.90."""
+    packing = quenched(n, 0.9, 1e-5)
+    steps = max(400, 4_000_000 // n)
+
+    def run(count):
+        x, y = packing.fraction.copy()
+        settings = FireSettings(1e-30, 0.0, 1e3, 0.9, 0.2, count)
+        fire(x, y, packing.diameter, np.ones(n), packing.box_length, 0.0, HERTZ, settings)
+
+    run(1)
+    return (cpu(run, steps + 1) - cpu(run, 1)) / steps / n * 1e9
+
+
+def frictional_step(n: int) -> float:
+    """Damped dynamics with tangential history per grain and step, in ns, at φ = 0.90."""
+    packing = quenched(n, 0.9).sheared(1e-4)
+    rule = interaction(ContactLaw(kt=1.0))
+    steps = 4_000_000 // n
+
+    def run(count):
+        move(packing, np.zeros((n, 3)), rule, Dashpot(1.0), 1e-2, Stop(0.0, count))
+
+    run(1)
+    return (cpu(run, steps + 1) - cpu(run, 1)) / steps / n * 1e9
+
+
+def trajectory(n: int) -> float:
+    """One trajectory with all eight φ of 0.83 … 0.90, each packing to 1e-14."""
+    balanced(placed(16, 0, HERTZ, PROTOCOL), 0.9, HERTZ, PROTOCOL)
+
+    def climb():
+        now = placed(n, 0, HERTZ, PROTOCOL)
+        for phi in np.round(np.arange(0.83, 0.905, 0.01), 2):
+            now = advanced(now, phi, HERTZ, PROTOCOL)
+            assert balanced(now, phi, HERTZ, PROTOCOL).converged
+
+    return cpu(climb)
+
+
+def moduli(n: int) -> float:
+    """g, g_A, g_NA, unloaded and loaded, from a packing."""
+    packing, rule = balanced_at(n, 0.9), interaction(ContactLaw(kt=1e-4))
+    rigidity(packing, rule)
+    return cpu(rigidity, packing, rule)
+
+
+def all_modes(n: int) -> float:
+    """All eigenvalues with ψ and p."""
+    packing, rule = balanced_at(n, 0.9), interaction(ContactLaw(kt=1e-4))
+    spectrum(quenched(16, 0.9), rule)
+    return cpu(spectrum, packing, rule)
+
+
+def start_up(n: int) -> float:
+    """A sample job that has next to nothing to do: interpreter, imports, cached kernels."""
+    start = None
+    for phi in checkpoints_up_to(0.9):
+        start = blocks.compress_block(n, range(1), phi, PROTOCOL, "hertz", start)
+    with tempfile.TemporaryDirectory() as folder:
+        packings = Path(folder) / "packings.nc"
+        write_block(packings, blocks.packing_block(start, 0.9, PROTOCOL, "hertz"))
+        command = ["rigidity", str(packings), "--kt", "1e-4", "-o", str(Path(folder) / "g.nc")]
+        return min(_cpu_of_job(command) for _ in range(3))
+
+
+def _cpu_of_job(command: list[str]) -> float:
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run([sys.executable, "-m", "grainmodes.cli", *command], check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime

@@ -1,0 +1,56 @@
+"""Benchmarks: `snakemake benchmarks` prints this table.
+
+| column   | meaning                                                          |
+| -------- | ---------------------------------------------------------------- |
+| measured | CPU time of one thread, best of one run unless the case says so  |
+| to reach | what the project holds itself to                                 |
+| peak     | largest resident memory of the process of that case              |
+"""
+
+from __future__ import annotations
+
+import platform
+import resource
+import sys
+from multiprocessing import get_context
+from pathlib import Path
+
+from grainmodes.environment import prepare
+
+prepare()
+sys.path.insert(0, str(Path(__file__).parent))
+
+CASES = (
+    ("phi 0.80 -> 0.90 in 100 steps, each to 1e-10", "compression_in_large_steps", 1024, 5.0, "s"),
+    ("FIRE, per grain and step", "fire_step", 1024, 25.0, "ns"),
+    ("FIRE, per grain and step", "fire_step", 4096, 25.0, "ns"),
+    ("FIRE, per grain and step", "fire_step", 16384, 25.0, "ns"),
+    ("FIRE, per grain and step", "fire_step", 65536, 25.0, "ns"),
+    ("frictional dynamics with history, per grain and step", "frictional_step", 4096, 50.0, "ns"),
+    ("trajectory with eight phi, each to 1e-14", "trajectory", 4096, 300.0, "s"),
+    ("g, g_A, g_NA from a packing", "moduli", 4096, 0.25, "s"),
+    ("all eigenvalues with psi", "all_modes", 1024, 9.0, "s"),
+    ("start-up of a sample job", "start_up", 16, 1.0, "s"),
+)
+
+
+def measured(name: str, n: int) -> tuple[float, float]:
+    """(time, peak memory in MB) of a case, in this process."""
+    import cases
+
+    value = getattr(cases, name)(n)
+    return value, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+
+
+def main() -> None:
+    """Run every case in a fresh process and print its row as it comes."""
+    print(f"{platform.machine()}, Python {platform.python_version()}, one thread", flush=True)
+    print(f"{'work':54} {'N':>6} {'measured':>10} {'to reach':>9}      {'peak':>8}", flush=True)
+    for title, name, n, target, unit in CASES:
+        with get_context("spawn").Pool(1) as pool:
+            value, memory = pool.apply(measured, (name, n))
+        print(f"{title:54} {n:6d} {value:10.3g} {target:9.3g} {unit:3} {memory:6.0f} MB", flush=True)
+
+
+if __name__ == "__main__":
+    main()
