@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
 
 from grainmodes import blocks
 from grainmodes.configuration import ConfigurationError, Scene, scene_of
-from grainmodes.dataset import read_block, write_block
+from grainmodes.dataset import Block, BlockError, read_block, write_block
 
 OPTIONS = {
     "grid.n[0]": "--n",
@@ -26,53 +30,53 @@ ANY_POINT = {"n": [1024], "phi": [0.9], "kt": [0.0], "seeds": 1}
 def compress(arguments: Namespace) -> None:
     """Random grains, or the checkpoint below → a checkpoint."""
     scene = _scene(arguments.settings, n=arguments.n, phi=arguments.phi)
-    start = read_block(arguments.start) if arguments.start else None
-    block = blocks.compress_block(
-        arguments.n,
-        arguments.seeds,
-        arguments.phi,
-        scene.protocol.compression,
-        scene.law.normal,
-        start,
-    )
+    make = partial(blocks.compress_block, arguments.n, arguments.seeds, arguments.phi)
+    how = scene.protocol.compression, scene.law.normal
+    if arguments.start is None:
+        block = make(*how, None)
+    else:
+        with _opened(arguments.start, "trajectories") as start:
+            block = make(*how, start)
     write_block(arguments.output, block)
 
 
 def pack(arguments: Namespace) -> None:
     """A checkpoint → packings."""
     scene = _scene(arguments.settings, phi=arguments.phi)
-    start = read_block(arguments.start)
-    compression = scene.protocol.compression
-    block = blocks.packing_block(start, arguments.phi, compression, scene.law.normal)
+    how = scene.protocol.compression, scene.law.normal
+    with _opened(arguments.start, "trajectories") as start:
+        block = blocks.packing_block(start, arguments.phi, *how)
     write_block(arguments.output, block)
 
 
 def rigidity(arguments: Namespace) -> None:
     """Packings → rigidity."""
     scene = _scene(arguments.settings, kt=arguments.kt)
-    law, rattlers = scene.law_at(arguments.kt), scene.protocol.rattlers
-    block = blocks.rigidity_block(read_block(arguments.packings), law, rattlers)
+    law = scene.law_at(arguments.kt)
+    with _opened(arguments.packings, "packings") as packings:
+        block = blocks.rigidity_block(packings, law, scene.protocol.rattlers)
     write_block(arguments.output, block)
 
 
 def step_strain(arguments: Namespace) -> None:
     """Packings → simulated rigidity."""
     scene = _scene(arguments.settings, kt=arguments.kt)
-    law, step = scene.law_at(arguments.kt), scene.protocol.step_strain
-    block = blocks.step_strain_block(read_block(arguments.packings), law, step)
+    law = scene.law_at(arguments.kt)
+    with _opened(arguments.packings, "packings") as packings:
+        block = blocks.step_strain_block(packings, law, scene.protocol.step_strain)
     write_block(arguments.output, block)
 
 
 def spectrum(arguments: Namespace) -> None:
     """Packings → eigenvalues."""
     scene = _scene(arguments.settings, kt=arguments.kt)
-    if scene.spectrum == "none":
+    law, kind = scene.law_at(arguments.kt), scene.spectrum
+    if kind == "none":
         raise ConfigurationError(
             "observables.spectrum = 'none': allowed here are eigenvalues and modes"
         )
-    law, rattlers = scene.law_at(arguments.kt), scene.protocol.rattlers
-    packings = read_block(arguments.packings)
-    block = blocks.spectrum_block(packings, law, rattlers, scene.spectrum)
+    with _opened(arguments.packings, "packings") as packings:
+        block = blocks.spectrum_block(packings, law, scene.protocol.rattlers, kind)
     write_block(arguments.output, block)
 
 
@@ -107,6 +111,19 @@ def _with_options(arguments: Namespace) -> dict:
         "contact_law": settings.get("contact_law", {}) | named,
         "observables": settings.get("observables", {}) | observables,
     }
+
+
+@contextmanager
+def _opened(path: Path, stage: str) -> Iterator[Block]:
+    """The block in a file, if that stage made it; complaints about its content name the file."""
+    block = read_block(path)
+    found = block.attributes.get("stage", "something else")
+    if found != stage:
+        raise BlockError(f"{path}: holds {found}, needed here are {stage}")
+    try:
+        yield block
+    except BlockError as error:
+        raise BlockError(f"{path}: {error}") from error
 
 
 def _scene(settings: dict, **point: float) -> Scene:

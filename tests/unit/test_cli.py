@@ -1,0 +1,214 @@
+"""The command line: light where it can be, one sentence where it cannot go on."""
+
+import json
+import subprocess
+import sys
+
+import netCDF4
+import pytest
+
+from grainmodes.cli import main
+from grainmodes.dataset import read_block, write_block
+
+HEAVY = ("numba", "xarray", "matplotlib", "scipy", "numpy", "jsonschema")
+
+SMALL = ["--n", "16", "--phi", "0.9"]
+COARSE = json.dumps({"protocol": {"compression": {"phi_step": 0.01}}})
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    """A folder with a checkpoint and packings of two samples of 16 grains."""
+    folder = tmp_path_factory.mktemp("study")
+    start = ["compress", "--n", "16", "--phi", "0.9", "--seeds", "0-1", "--settings", COARSE]
+    assert main([*start, "-o", str(folder / "checkpoint.nc")]) == 0
+    pack = ["pack", str(folder / "checkpoint.nc"), "--phi", "0.9", "--settings", COARSE]
+    assert main([*pack, "-o", str(folder / "packings.nc")]) == 0
+    return folder
+
+
+def loaded_by(*words: str) -> set[str]:
+    """Heavy packages that a command imports."""
+    script = (
+        "import sys\nfrom grainmodes.cli import main\n"
+        "try: main(sys.argv[1:])\nexcept SystemExit: pass\n"
+        "print(*sys.modules, file=sys.stderr)"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", script, *words], capture_output=True, text=True, check=True
+    )
+    return {name for name in HEAVY if name in run.stderr.split()}
+
+
+@pytest.mark.parametrize("words", [["--help"], ["point", "--help"], ["--version"], ["pack"]])
+def test_help_is_light(words):
+    assert loaded_by(*words) == set()
+
+
+def test_showing_is_light(study):
+    assert loaded_by("show", str(study / "packings.nc")) == {"numpy"}
+
+
+def test_help_names_every_command(capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["--help"])
+    assert stop.value.code == 0
+    text = capsys.readouterr().out
+    for name in ("compress", "pack", "rigidity", "step-strain", "spectrum", "gather"):
+        assert f"    {name}" in text
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ([], "required: COMMAND"),
+        (["melt"], "invalid choice: 'melt'"),
+        (["pack"], "required: start, --phi, -o"),
+        (["point", *SMALL, "--kt", "1", "--seed", "x", "-o", "p.nc"], "expected first-last"),
+        (["point", *SMALL, "--kt", "1", "--seed", "3-1", "-o", "p.nc"], "expected first-last"),
+        (["pack", "x.nc", "--phi", "0.9", "--settings", "{", "-o", "p"], "'{' is not JSON"),
+        (["pack", "x.nc", "--phi", "0.9", "--settings", "[]", "-o", "p"], "no JSON object"),
+        (["figure", "g_psi", "x.nc", "-o", "g"], "invalid choice: 'g_psi'"),
+    ],
+)
+def test_bad_usage(capsys, words, sentence):
+    with pytest.raises(SystemExit) as stop:
+        main(words)
+    assert stop.value.code == 2
+    assert sentence in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["--n", "15", "--phi", "0.9", "--kt", "1"], "--n = 15: allowed is a whole even number"),
+        (["--n", "4", "--phi", "0.9", "--kt", "1"], "--n = 4: at phi = 0.9 the box is 1.62 d"),
+        (["--n", "16", "--phi", "0.5", "--kt", "1"], "--phi = 0.5: allowed is a number from 0.8"),
+        (["--n", "16", "--phi", "nan", "--kt", "1"], "--phi = 'nan': allowed is a number"),
+        ([*SMALL, "--kt", "-1"], "--kt = -1.0: allowed is a number from 0.0"),
+        ([*SMALL, "--kt", "1", "--friction-coefficient", "1"], "'elastic' has none"),
+        ([*SMALL, "--kt", "1", "--tangential", "sharp_coulomb"], "is missing"),
+        ([*SMALL, "--kt", "1", "--settings", '{"protocol": {"x": 1}}'], "unknown key 'x'"),
+        ([*SMALL, "--kt", "1", "--settings", '{"seed": 1}'], "unknown key 'seed'"),
+    ],
+)
+def test_bad_points_are_refused_in_one_line(capsys, tmp_path, words, sentence):
+    output = tmp_path / "point.nc"
+    assert main(["point", *words, "--seed", "0", "-o", str(output)]) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("grainmodes point: ")
+    assert sentence in line
+    assert not output.exists()
+
+
+def test_a_missing_file_is_named(capsys, tmp_path):
+    words = ["rigidity", "nowhere.nc", "--kt", "1", "-o", str(tmp_path / "r.nc")]
+    assert main(words) == 1
+    assert capsys.readouterr().err == "grainmodes rigidity: nowhere.nc: no such file\n"
+
+
+@pytest.mark.parametrize("command", ["rigidity", "step-strain", "spectrum"])
+def test_a_truncated_file_is_refused(capsys, tmp_path, study, command):
+    whole = (study / "packings.nc").read_bytes()
+    (tmp_path / "half.nc").write_bytes(whole[: len(whole) // 2])
+    words = [command, str(tmp_path / "half.nc"), "--kt", "1", "-o", str(tmp_path / "out.nc")]
+    assert main(words) == 1
+    assert "half.nc: not a readable netCDF file" in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["half.nc"]
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (
+            ["rigidity", "checkpoint.nc", "--kt", "1"],
+            "holds trajectories, needed here are packings",
+        ),
+        (["pack", "packings.nc", "--phi", "0.9"], "holds packings, needed here are trajectories"),
+        (["pack", "checkpoint.nc", "--phi", "0.9"], "it belongs to another compression"),
+    ],
+)
+def test_a_file_of_another_stage_is_refused(capsys, tmp_path, study, words, sentence):
+    command, name, *options = words
+    path = study / name
+    assert main([command, str(path), *options, "-o", str(tmp_path / "out.nc")]) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"grainmodes {command}: {path}: ")
+    assert sentence in line
+
+
+def test_packings_out_of_balance_are_refused(capsys, tmp_path, study):
+    block = read_block(study / "packings.nc")
+    block.variables["fraction"][0, 0, 0] += 2**54
+    write_block(tmp_path / "moved.nc", block)
+    words = ["rigidity", str(tmp_path / "moved.nc"), "--kt", "1", "-o", str(tmp_path / "r.nc")]
+    assert main(words) == 1
+    assert "moved.nc: packing of seed 0 is not in force balance" in capsys.readouterr().err
+
+
+def test_an_unwritable_output_is_refused_before_the_work(capsys, tmp_path):
+    (tmp_path / "file").write_text("")
+    words = ["point", *SMALL, "--kt", "1", "--seed", "0", "-o"]
+    assert main([*words, str(tmp_path / "file" / "point.nc")]) == 1
+    assert main([*words, str(tmp_path)]) == 1
+    assert len(capsys.readouterr().err.splitlines()) == 2
+
+
+def test_debugging_shows_where():
+    with pytest.raises(Exception, match="no such file"):
+        main(["--debug", "show", "nowhere.nc"])
+
+
+@pytest.mark.parametrize(
+    ("command", "names"),
+    [
+        ("rigidity", {"g", "g_affine", "g_nonaffine_loaded"}),
+        ("step-strain", {"g_simulated", "contact_changes"}),
+        ("spectrum", {"eigenvalue", "psi_rotational"}),
+    ],
+)
+def test_a_response_is_written(tmp_path, study, command, names):
+    output = tmp_path / "new" / "response.nc"
+    words = [command, str(study / "packings.nc"), "--kt", "1e-4", "-o", str(output)]
+    assert main(words) == 0
+    block = read_block(output)
+    assert names <= set(block.variables)
+    assert float(block.attributes["kt"]) == 1e-4
+
+
+def test_a_spectrum_of_nothing_is_refused(capsys, tmp_path, study):
+    settings = ["--settings", '{"observables": {"spectrum": "none"}}']
+    words = ["spectrum", str(study / "packings.nc"), "--kt", "1", *settings]
+    assert main([*words, "-o", str(tmp_path / "s.nc")]) == 1
+    assert "allowed here are eigenvalues and modes" in capsys.readouterr().err
+
+
+def test_a_point_without_files_between(tmp_path, capsys):
+    output = tmp_path / "point.nc"
+    words = ["point", *SMALL, "--kt", "1e-4", "--seed", "3", "--settings", COARSE]
+    assert main([*words, "-o", str(output)]) == 0
+    block = read_block(output)
+    assert block.variables["seed"].tolist() == [3]
+    assert {"g", "g_simulated", "eigenvalue", "pressure"} <= set(block.variables)
+    assert main(["show", str(output)]) == 0
+    text = capsys.readouterr().out
+    for part in ("code_version", "eigenvalue", "k_N d^(1/2)", "converged  1 of 1", "none"):
+        assert part in text
+
+
+def test_showing_tells_failures(tmp_path, capsys):
+    path = tmp_path / "block.nc"
+    with netCDF4.Dataset(path, "w") as file:
+        file.createDimension("seed", 2)
+        file.createVariable("converged", "i1", ("seed",))[...] = [1, 0]
+        file.failures = json.dumps({"1": "ran out of iterations"})
+    assert main(["show", str(path)]) == 0
+    text = capsys.readouterr().out
+    assert "converged  1 of 2" in text
+    assert "1  ran out of iterations" in text
+
+
+def test_showing_no_netcdf(tmp_path, capsys):
+    (tmp_path / "notes.txt").write_text("notes")
+    assert main(["show", str(tmp_path / "notes.txt")]) == 1
+    assert "notes.txt: not a readable netCDF file" in capsys.readouterr().err

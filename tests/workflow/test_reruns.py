@@ -1,0 +1,101 @@
+"""What runs again: exactly what an addition or an edit touches."""
+
+from copy import deepcopy
+
+import pytest
+
+from .conftest import SCENE
+
+AFTER_POINTS = {"point": 4, "ensemble": 1, "checks": 1, "figure": 6}
+
+
+def scene_with(path: str, value) -> dict:
+    """The tiny scene with one key changed."""
+    scene = deepcopy(SCENE)
+    room, key = path.split(".")
+    scene.setdefault(room, {})[key] = value
+    return scene
+
+
+def test_a_second_run_has_nothing_to_do(study):
+    before = study.fingerprints()
+    assert "Nothing to be done" in study.run()
+    assert study.fingerprints() == before
+
+
+def test_every_result_is_there(built):
+    files = set(built.fingerprints())
+    assert {"ensemble.nc", "checks.txt", "figures/g_phi.png", "figures/dos.csv"} <= files
+    assert "rigidity/n~16/phi~0.85/kt~0.0001/seeds~0000-0001.nc" in files
+    assert not [name for name in files if "partial" in name]
+
+
+def test_the_report_answers_every_question(built):
+    lines = (built.results / "checks.txt").read_text().splitlines()
+    assert len(lines) >= 10
+    assert all(line.startswith("passed") for line in lines)
+
+
+def test_more_seeds_run_new_blocks_only(study):
+    study.write_scene(scene_with("grid.seeds", 4))
+    plan = study.run("-n")
+    assert "seeds 0002-0003" in plan
+    assert "seeds 0000-0001" not in plan
+    new = {"compress": 6, "pack": 2, "rigidity": 4, "step_strain": 4, "spectrum": 4}
+    assert study.planned() == new | AFTER_POINTS
+
+
+def test_another_stiffness_makes_no_packing(study):
+    study.write_scene(scene_with("grid.kt", [1e-4, 1.0, 10.0]))
+    new = {"rigidity": 2, "step_strain": 2, "spectrum": 2}
+    assert study.planned() == new | AFTER_POINTS | {"point": 2}
+
+
+def test_another_fraction_starts_from_the_checkpoints(study):
+    study.write_scene(scene_with("grid.phi", [0.8, 0.843, 0.85]))
+    new = {"pack": 1, "rigidity": 2, "step_strain": 2, "spectrum": 2}
+    assert study.planned() == new | AFTER_POINTS | {"point": 2}
+
+
+@pytest.mark.parametrize(
+    ("source", "rules"),
+    [
+        ("figures/dos.py", {"figure": 1}),
+        ("figures/appearance.py", {"figure": 6}),
+        ("figures/grainmodes.mplstyle", {"figure": 6}),
+        ("cli/show.py", {}),
+        ("configuration/rules.py", {}),
+        ("rigidity.py", {"rigidity": 4} | AFTER_POINTS),
+        ("spectrum/dense.py", {"spectrum": 4} | AFTER_POINTS),
+        (
+            "kernels/laws.py",
+            {"compress": 6, "pack": 2, "rigidity": 4, "step_strain": 4, "spectrum": 4}
+            | AFTER_POINTS,
+        ),
+    ],
+)
+def test_an_edit_runs_what_depends_on_it(study, source, rules):
+    study.edit(source)
+    assert study.planned() == rules
+
+
+def test_an_edited_figure_is_redrawn_alone(study):
+    study.edit("figures/dos.py")
+    ensemble = study.results / "ensemble.nc"
+    before = ensemble.stat().st_mtime_ns
+    assert "Draw dos." in study.run()
+    assert ensemble.stat().st_mtime_ns == before
+    assert study.planned() == {}
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "rules"),
+    [
+        ("protocol.rattlers", {"keep": True}, {"rigidity": 4, "spectrum": 4} | AFTER_POINTS),
+        ("protocol.step_strain", {"strain": 1e-5}, {"step_strain": 4} | AFTER_POINTS),
+    ],
+)
+def test_a_changed_setting_runs_its_stages(study, path, value, rules):
+    protocol = SCENE["protocol"] | {path.removeprefix("protocol."): value}
+    study.write_scene(SCENE | {"protocol": protocol})
+    assert study.planned() == rules

@@ -1,0 +1,92 @@
+"""What a scene asks for is what runs; a mistaken scene runs nothing."""
+
+from copy import deepcopy
+
+import pytest
+
+from grainmodes.dataset import read_block
+
+from .conftest import SCENE
+
+PACKINGS = {"compress": 6, "pack": 2}
+END = {"ensemble": 1, "checks": 1}
+
+
+def scene_of(observables: dict, **changes) -> dict:
+    """The tiny scene with these observables."""
+    return deepcopy(SCENE) | {"observables": observables} | changes
+
+
+def test_only_rigidity(fresh):
+    fresh.write_scene(scene_of({"step_strain": False, "spectrum": "none"}))
+    assert fresh.planned() == PACKINGS | {"rigidity": 4, "point": 4, "figure": 3} | END
+
+
+def test_only_eigenvalues(fresh):
+    fresh.write_scene(
+        scene_of({"rigidity": False, "step_strain": False, "spectrum": "eigenvalues"})
+    )
+    plan = fresh.run("-n", "-p")
+    assert '"eigenvalues"' in plan
+    assert '"modes"' not in plan
+    assert fresh.planned() == PACKINGS | {"spectrum": 4, "point": 4, "figure": 2} | END
+
+
+def test_spectra_at_some_fractions(fresh):
+    fresh.write_scene(scene_of({"spectrum_phi": [0.85]}))
+    assert fresh.planned()["spectrum"] == 2
+
+
+def test_without_friction(fresh):
+    grid = {name: value for name, value in SCENE["grid"].items() if name != "kt"}
+    fresh.write_scene(scene_of({}, grid=grid, effects={"friction": False}))
+    plan = fresh.run("-n")
+    assert "k_T = 0.0" in plan
+    assert "k_T = 1" not in plan
+    assert fresh.planned()["rigidity"] == 2
+
+
+def test_the_default_scene_does_not_leak(fresh):
+    default = fresh.folder / "config" / "default.yaml"
+    default.write_text(default.read_text() + "observables: {rigidity: false}\n")
+    assert fresh.planned()["rigidity"] == 4
+
+
+def test_one_point_off_the_grid(study):
+    target = "results/tiny/rigidity/n~16/phi~0.853/kt~3e-05/seeds~0001-0001.nc"
+    assert study.planned(target) == {"compress": 6, "pack": 1, "rigidity": 1}
+    inside = target.replace("0001-0001", "0000-0001")
+    assert study.planned(inside) == {"pack": 1, "rigidity": 1}
+    study.run(inside)
+    block = read_block(study.folder / inside)
+    assert float(block.attributes["phi"]) == 0.853
+    assert float(block.attributes["kt"]) == 3e-05
+    assert block.variables["seed"].tolist() == [0, 1]
+
+
+def test_a_fraction_out_of_range_is_refused_by_its_job(fresh):
+    target = "results/tiny/trajectories/n~16/phi~0.5/seeds~0000-0000.nc"
+    said = fresh.run(target, succeeds=False)
+    assert "--phi = 0.5: allowed is a number from 0.8 to 1.2" in said
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"colour": 1}, "unknown key 'colour', allowed are study, grid"),
+        ({"grid": SCENE["grid"] | {"phi": [0.7]}}, "grid.phi[0] = 0.7: allowed is a number from"),
+        ({"grid": SCENE["grid"] | {"n": [4]}}, "can touch two images of another"),
+        ({"figures": ["g_psi"]}, "unknown figure 'g_psi', allowed are"),
+    ],
+)
+def test_a_mistaken_scene_is_refused(fresh, change, sentence):
+    fresh.write_scene(SCENE | change)
+    said = fresh.run("-n", succeeds=False)
+    assert sentence in said
+    assert "Traceback" not in said
+    assert not fresh.results.exists()
+
+
+def test_a_scene_that_is_missing(fresh):
+    (fresh.folder / "config" / "tiny.yaml").unlink()
+    assert "tiny.yaml" in fresh.run("-n", succeeds=False)
