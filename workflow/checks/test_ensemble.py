@@ -9,8 +9,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-THEORY_AGAINST_SIMULATION = 1e-5
-"""Largest relative difference of g and g_simulated without contact changes."""
+TYPICAL_DIFFERENCE = 1e-6
+LARGEST_DIFFERENCE = 1e-4
+"""Median and maximum of |g_simulated - g| / g_affine where no contact changed.
+
+Relative to g_affine, as the two parts of g nearly cancel in small systems close to jamming. A
+finite step leaves a remainder of second order, which the softest samples show.
+"""
 
 SUM_OF_PARTS = 1e-10
 """Largest relative difference of a modulus and the sum of its parts."""
@@ -68,9 +73,11 @@ def test_loaded_relaxation_softens(ensemble, converged):
 
 def test_theory_is_simulation(ensemble, converged):
     _has(ensemble, "g", "g_simulated", "contact_changes")
-    same_contacts = converged & (ensemble["contact_changes"] == 0) & (ensemble["g"] != 0.0)
-    theory, simulation = (ensemble[name].where(same_contacts) for name in ("g", "g_simulated"))
-    assert not (np.abs(simulation / theory - 1.0) > THEORY_AGAINST_SIMULATION).any()
+    same_contacts = converged & (ensemble["contact_changes"] == 0) & (ensemble["jammed"] == 1)
+    difference = np.abs(ensemble["g_simulated"] - ensemble["g"]) / ensemble["g_affine"]
+    difference = difference.where(same_contacts)
+    assert not difference.median() > TYPICAL_DIFFERENCE
+    assert not difference.max() > LARGEST_DIFFERENCE
 
 
 @pytest.mark.parametrize("name", ["psi_rotational", "participation_ratio"])
