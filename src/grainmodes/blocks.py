@@ -97,6 +97,8 @@ def step_strain_block(packings: Block, law: ContactLaw, step: StepStrain) -> Blo
         return {
             "g_simulated": result.g,
             "g_simulated_forward": result.g_forward,
+            "g_simulated_error": result.error,
+            "strain_simulated": result.strain,
             "contact_changes": result.contact_changes,
             "iterations_simulated": result.iterations,
             "max_force_simulated": result.max_force,

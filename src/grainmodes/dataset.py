@@ -87,6 +87,10 @@ VARIABLES: dict[str, Variable] = {
     "g_simulated_forward": Variable(
         BLOCK, "f8", MODULUS, "rigidity from the forward step strain alone (paper A)"
     ),
+    "g_simulated_error": Variable(
+        BLOCK, "f8", MODULUS, "difference of g_simulated to that of a step ten times larger"
+    ),
+    "strain_simulated": Variable(BLOCK, "f8", "1", "size of the step strain of g_simulated"),
     "iterations_simulated": Variable(
         BLOCK, "i8", "1", "iterations of the relaxation of the step strains"
     ),
