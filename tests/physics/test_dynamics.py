@@ -1,0 +1,152 @@
+"""Grains on the move: what is conserved, what may only fall, and how fast steps converge."""
+
+import numpy as np
+import pytest
+
+import naive_dynamics as slow
+from grainmodes.kernels.dynamics import Dashpot, Drag, Stop, Undamped
+from grainmodes.kernels.laws import Elastic, Hertz, Interaction, interaction
+from grainmodes.packing import Packing, find_contacts
+from grainmodes.parameters import ContactLaw
+from grainmodes.relaxation.dynamics import Motion, move, relax_damped
+from specimens import crowd, pairs_of, reference
+
+HARMONIC = ContactLaw("harmonic", "elastic", 0.5)
+BARE = ContactLaw("hertz")
+LAWS = {
+    "harmonic elastic": (HARMONIC, interaction(HARMONIC)),
+    "frictionless Hertz": (BARE, Interaction(Hertz(1.0), Elastic(0.0))),
+}
+"""The laws that have an energy: the slow twin's, and the package's with torque and history."""
+
+
+def energy(law: ContactLaw, motion: Motion) -> float:
+    packing = motion.packing
+    scene = slow.Scene(law, packing.diameter, packing.mass, packing.box_length, packing.strain)
+    slip = {(p.i, p.j): p.slip for p in pairs_of(packing)}
+    return slow.energy(scene, slow.Moving(packing.position, motion.velocity, None, slip))
+
+
+def record(packing: Packing, velocity, rule, damping, dt: float, looks: int, between: int):
+    """The motion now and then."""
+    motion = Motion(packing, velocity, 0, np.inf)
+    yield motion
+    for _ in range(looks):
+        motion = move(motion.packing, motion.velocity, rule, damping, dt, Stop(0.0, between))
+        yield motion
+
+
+def stirred(n: int, size: float) -> np.ndarray:
+    return np.random.default_rng(2).normal(0.0, size, (n, 3))
+
+
+@pytest.mark.parametrize("damping", [Dashpot(0.5), Drag(0.5)])
+@pytest.mark.parametrize("name", LAWS)
+def test_energy_never_rises_in_damped_dynamics(name, damping):
+    law, rule = LAWS[name]
+    packing = crowd(61, strain=0.3)
+    history = [
+        energy(law, m)
+        for m in record(packing, stirred(16, 0.1), rule, damping, 2e-3, looks=120, between=10)
+    ]
+    assert history[-1] < 0.7 * history[0]
+    assert np.diff(history).max() < 1e-7 * history[0]
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_energy_is_kept_without_damping(name):
+    law, rule = LAWS[name]
+    packing = reference("harmonic_n64_phi0.900_seed1")[1]
+    if name != "harmonic elastic":
+        packing = reference("hertz_n64_phi0.900_seed1")[1]
+    start = stirred(packing.n, 1e-4)
+    rest = energy(law, Motion(packing, 0 * start, 0, 0.0))
+    history = [
+        energy(law, m) - rest
+        for m in record(packing, start, rule, Undamped(), 2e-3, looks=20, between=50)
+    ]
+    np.testing.assert_allclose(history, history[0], rtol=2e-2)
+
+
+@pytest.mark.parametrize("damping", [Dashpot(0.5), Undamped()])
+def test_momentum_is_kept(damping):
+    packing, start = crowd(62), stirred(16, 0.1)
+    end = move(packing, start, interaction(HARMONIC), damping, 1e-2, Stop(0.0, 300))
+    before, after = (packing.mass @ v[:, :2] for v in (start, end.velocity))
+    np.testing.assert_allclose(after, before, atol=1e-13)
+
+
+def head_on(overlap: float) -> Packing:
+    position = [[2.0, 3.0], [2.0 + 1.0 - overlap, 3.0]]
+    return Packing.from_positions(position, np.ones(2), 6.0)
+
+
+@pytest.mark.parametrize(("viscosity", "order"), [(0.0, 2), (0.4, 1)])
+def test_two_grains_bounce_as_a_damped_oscillator(viscosity, order):
+    """ξ'' = −2 ξ − 2η ξ': ξ = ξ_0 e^(−ηt) (cos ωt + η/ω sin ωt), ω² = 2 − η²."""
+    start, until, omega = 0.05, 0.8, np.sqrt(2 - viscosity**2)
+    exact = start * np.exp(-viscosity * until)
+    exact *= np.cos(omega * until) + viscosity / omega * np.sin(omega * until)
+    errors = []
+    for steps in (100, 200, 400):
+        damping = Dashpot(viscosity) if viscosity else Undamped()
+        still = np.zeros((2, 3))
+        end = move(
+            head_on(start), still, interaction(HARMONIC), damping, until / steps, Stop(0.0, steps)
+        )
+        errors.append(abs(find_contacts(end.packing).overlap[0] - exact))
+    assert errors[-1] < (1e-6 if order == 2 else 1e-4)
+    ratios = np.array(errors[:-1]) / errors[1:]
+    np.testing.assert_allclose(np.log2(ratios), order, atol=0.1)
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_drag_slows_every_motion_alike(axis):
+    packing = Packing.from_positions([[1.0, 1.0], [4.0, 4.0]], [1.0, 0.7], 6.0)
+    start = np.zeros((2, 3))
+    start[:, axis] = 0.3
+    end = move(packing, start, interaction(HARMONIC), Drag(0.8), 1e-3, Stop(0.0, 1000))
+    np.testing.assert_allclose(end.velocity[:, axis], 0.3 * np.exp(-0.8), rtol=1e-3)
+
+
+def test_dashpots_act_on_spin_as_on_sliding():
+    """Two grains that roll on each other feel no friction; two that spin alike do."""
+    packing, rule = head_on(1e-6), interaction(HARMONIC)
+    for spins, slows in (((0.1, -0.1), False), ((0.1, 0.1), True)):
+        start = np.zeros((2, 3))
+        start[:, 2] = spins
+        end = move(packing, start, rule, Dashpot(1.0), 1e-3, Stop(0.0, 20))
+        assert np.all(np.abs(end.velocity[:, 2]) < 0.0999) == slows
+
+
+def test_slip_is_forgotten_when_a_contact_opens():
+    packing, rule = head_on(0.02), interaction(HARMONIC)
+    start = np.zeros((2, 3))
+    start[:, 2] = 0.05
+    touching = move(packing, start, rule, Undamped(), 1e-2, Stop(0.0, 20))
+    assert abs(find_contacts(touching.packing).displacement[0]) > 1e-3
+    apart = move(touching.packing, touching.velocity, rule, Undamped(), 1e-2, Stop(0.0, 300))
+    assert len(find_contacts(apart.packing).i) == 0
+    assert len(apart.packing.history.i) == 0
+
+
+def test_a_long_way_does_not_lose_neighbours():
+    """Two grains that meet far from where the list of neighbours was made."""
+    packing = Packing.from_positions([[1.0, 3.0], [5.0, 3.2]], np.ones(2), 8.0)
+    start = np.array([[0.5, 0.0, 0.0], [-0.5, 0.0, 0.0]])
+    end = move(packing, start, interaction(HARMONIC), Undamped(), 1e-2, Stop(0.0, 600))
+    assert end.velocity[0, 0] < 0.4
+    kinetic = np.sum(end.velocity[:, :2] ** 2) / 2 + np.sum(end.velocity[:, 2] ** 2) / 4
+    assert kinetic < 0.25 + 1e-6
+
+
+def test_damped_relaxation_is_told_apart_from_running_out_of_steps():
+    packing, rule = (
+        reference("hertz_n16_phi0.900_seed1")[1].sheared(1e-4),
+        LAWS["harmonic elastic"][1],
+    )
+    rule = interaction(ContactLaw("hertz", "elastic", 1.0))
+    short = relax_damped(packing, rule, Dashpot(1.0), 1e-2, 1e-14, 100)
+    assert not short.converged and short.iterations == 100 and short.max_force > 1e-14
+    long = relax_damped(packing, rule, Dashpot(1.0), 1e-2, 1e-14, 1_000_000)
+    assert long.converged and max(long.max_force, long.max_torque) < 1e-14

@@ -1,0 +1,155 @@
+"""Properties of every packing that a compression makes, over N, φ, seed, law and protocol."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import naive
+from grainmodes.forces import largest, net_force
+from grainmodes.jacobian import jacobian
+from grainmodes.packing import Packing, find_contacts, rattlers
+from grainmodes.parameters import Compression, ContactLaw, StepStrain
+from grainmodes.protocols.compression import balanced, placed
+from grainmodes.protocols.step_strain import step_strain
+from grainmodes.rigidity import net_rate, rigidity
+from grainmodes.spectrum import spectrum
+from specimens import elastic, few, pairs_of
+
+sizes = st.sampled_from([8, 10, 12, 16, 20, 24, 30])
+dense = st.floats(0.87, 0.95)
+seeds = st.integers(0, 10**6)
+normals = st.sampled_from(["hertz", "harmonic"])
+relaxations = st.sampled_from(["fast", "fire"])
+frictions = st.sampled_from([0.0, 1e-8, 1e-4, 1e-2, 1.0, 2.0, 10.0])
+
+
+def compressed(n: int, phi: float, seed: int, normal="hertz", relaxation="fast") -> Packing:
+    """A packing at φ, compressed in coarse steps."""
+    protocol = Compression(relaxation=relaxation, phi_step=1e-2)
+    law = elastic(normal, 0.0).normal
+    relaxed = balanced(placed(n, seed, law, protocol), phi, law, protocol)
+    assert relaxed.converged
+    return relaxed.packing
+
+
+def backbone(packing: Packing) -> Packing:
+    return packing.without(rattlers(find_contacts(packing), packing.n, 2))
+
+
+def rigid(packing: Packing) -> bool:
+    """Whether there is a backbone, and it has no zero mode but the translations."""
+    core = backbone(packing)
+    if core.n == 0:
+        return False
+    size = np.abs(spectrum(core, elastic("hertz", 0.0), modes=False).eigenvalue)
+    return bool(np.sort(size)[2] > 1e-6)
+
+
+@few(40)
+@given(n=sizes, phi=st.floats(0.6, 0.95), seed=seeds, normal=normals, relaxation=relaxations)
+def test_every_packing_is_in_balance_at_its_density(n, phi, seed, normal, relaxation):
+    packing = compressed(n, phi, seed, normal, relaxation)
+    assert packing.phi == pytest.approx(phi, rel=1e-12)
+    assert np.sum(packing.diameter == 1.0) == n // 2
+    np.testing.assert_array_equal(packing.mass, packing.diameter**2)
+    force = naive.net_force(ContactLaw(normal), pairs_of(packing), n)
+    # The positions of the slow twin are rounded to 1e-16 of the box.
+    assert np.abs(force).max() < 2e-14
+    law = elastic(normal, 0.0)
+    assert largest(net_force(packing, find_contacts(packing), law))[0] < 1.1e-14
+
+
+@few(20)
+@given(n=sizes, phi=st.floats(0.6, 0.7), seed=seeds)
+def test_dilute_grains_do_not_touch(n, phi, seed):
+    assert len(find_contacts(compressed(n, phi, seed)).i) == 0
+
+
+@few(15)
+@given(n=sizes, phi=dense, seed=seeds, normal=normals)
+def test_same_seed_same_bytes(n, phi, seed, normal):
+    one, two = (compressed(n, phi, seed, normal) for _ in range(2))
+    np.testing.assert_array_equal(one.fraction, two.fraction)
+    other = compressed(n, phi, seed + 1, normal)
+    assert np.any(one.fraction != other.fraction)
+
+
+@few(30)
+@given(n=sizes, phi=dense, seed=seeds, normal=normals, kt=frictions)
+def test_mode_sum_direct_solve_and_simulation_agree(n, phi, seed, normal, kt):
+    packing = compressed(n, phi, seed, normal)
+    if not rigid(packing):
+        return
+    law, core = ContactLaw(normal, "elastic", kt), backbone(packing)
+    theory = rigidity(packing, elastic(normal, kt))
+    pairs = pairs_of(core)
+    for moduli, loaded in ((theory.unloaded, False), (theory.loaded, True)):
+        affine, nonaffine = naive.moduli(law, pairs, core.n, core.box_length, loaded)
+        np.testing.assert_allclose(moduli.affine, affine, rtol=1e-8, atol=1e-10)
+        np.testing.assert_allclose(moduli.nonaffine, nonaffine, rtol=1e-8, atol=1e-8)
+    simulated = step_strain(packing, elastic(normal, kt), StepStrain(strain=1e-7))
+    if simulated.converged and simulated.contact_changes == 0:
+        scale = theory.unloaded.g_affine
+        assert simulated.g == pytest.approx(theory.unloaded.g, rel=1e-5, abs=1e-5 * scale)
+
+
+@few(30)
+@given(n=sizes, phi=dense, seed=seeds, normal=normals, kt=frictions)
+def test_spectrum_of_every_packing(n, phi, seed, normal, kt):
+    packing = compressed(n, phi, seed, normal)
+    law, core = elastic(normal, kt), backbone(packing)
+    if core.n == 0:
+        return
+    found = spectrum(packing, law)
+    assert len(found.eigenvalue) == (3 if kt else 2) * core.n
+    assert np.all(np.diff(found.eigenvalue) >= 0)
+    assert found.residual < 1e-13 * max(1.0, kt)
+    matrix = jacobian(core, find_contacts(core), law)
+    assert found.eigenvalue.sum() == pytest.approx(matrix.trace(), rel=1e-12)
+    if rigid(packing):
+        size = np.sort(np.abs(found.eigenvalue))
+        assert size[1] < 1e-13 * max(1.0, kt) < size[2]
+
+
+@few(30)
+@given(n=sizes, phi=dense, seed=seeds, normal=normals, kt=frictions.filter(bool))
+def test_loaded_response_is_minimal_energy(n, phi, seed, normal, kt):
+    """−L² g_NA = aᵀ J⁺ a ≥ 0: relaxing a loaded step gives energy away."""
+    packing = compressed(n, phi, seed, normal)
+    if not rigid(packing):
+        return
+    loaded = rigidity(packing, elastic(normal, kt)).loaded
+    core = backbone(packing)
+    matrix = jacobian(core, find_contacts(core), elastic(normal, kt))
+    u = loaded.displacement.ravel()
+    assert loaded.g_nonaffine * core.box_length**2 == pytest.approx(-u @ (matrix @ u), rel=1e-9)
+    if spectrum(core, elastic(normal, kt), modes=False).eigenvalue[0] > -1e-12:
+        assert loaded.g_nonaffine <= 0.0
+
+
+@few(20)
+@given(n=sizes, phi=dense, seed=seeds, shift=st.integers(-(2**63), 2**63 - 1))
+def test_response_does_not_see_the_origin_or_the_numbering(n, phi, seed, shift):
+    packing = compressed(n, phi, seed)
+    if not rigid(packing):
+        return
+    order = np.random.default_rng(seed).permutation(n)
+    other = Packing(
+        packing.fraction[:, order] + np.int64(shift),
+        packing.diameter[order],
+        packing.mass[order],
+        packing.box_length,
+    )
+    law = elastic("hertz", 1e-2)
+    here, there = rigidity(packing, law), rigidity(other, law)
+    for way in ("unloaded", "loaded"):
+        g, h = getattr(here, way).g, getattr(there, way).g
+        assert g == pytest.approx(h, rel=1e-9, abs=1e-12)
+
+
+def test_sum_of_forces_on_grains_is_zero_for_any_contact_force():
+    packing = compressed(16, 0.9, 3)
+    contacts = find_contacts(packing)
+    rate = np.random.default_rng(0).normal(size=(len(contacts.i), 3))
+    np.testing.assert_allclose(net_rate(contacts, rate, 16)[:, :2].sum(axis=0), 0.0, atol=1e-13)
