@@ -15,6 +15,7 @@ import numpy as np
 from grainmodes.dataset import Block
 from grainmodes.forces import largest, net_force
 from grainmodes.kernels.laws import interaction
+from grainmodes.modes import mode_sum
 from grainmodes.packing import find_contacts
 from grainmodes.parameters import Compression, ContactLaw, Rattlers, StepStrain
 from grainmodes.protocols.compression import advanced, balanced, placed
@@ -129,6 +130,7 @@ def spectrum_block(packings: Block, law: ContactLaw, rattler: Rattlers, kind: st
         if kind != "modes":
             return row
         return row | {
+            "g_mode_sum": np.nan if rattler.keep else mode_sum(packing, rule, result, threshold).g,
             "psi_rotational": _padded(result.psi_rotational, columns),
             "participation_ratio": _padded(result.participation_ratio, columns),
             "residual": result.residual,

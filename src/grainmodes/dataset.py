@@ -110,6 +110,7 @@ VARIABLES: dict[str, Variable] = {
     "psi_rotational": Variable(("seed", "mode"), "f8", "1", "rotational fraction psi^R of a mode"),
     "participation_ratio": Variable(("seed", "mode"), "f8", "1", "participation ratio p of a mode"),
     "residual": Variable(BLOCK, "f8", "k_N d^(1/2)", "largest eigenpair residual |J v - lambda v|"),
+    "g_mode_sum": Variable(BLOCK, "f8", MODULUS, "g as a sum over the modes"),
     "mode_count": Variable(BLOCK, "i8", "1", "number of modes: degrees of freedom of the backbone"),
 }
 """Every name that a block or an ensemble may hold."""

@@ -75,28 +75,44 @@ def rigidity(packing: Packing, interaction: Interaction, threshold: int = 2) -> 
     gone = rattlers(find_contacts(packing), packing.n, threshold)
     backbone = packing.without(gone) if gone.any() else packing
     contacts = find_contacts(backbone)
-    stiffness = stiffness_of(contacts, interaction)
-    matrix = assemble(stiffness, contacts.i, contacts.j, backbone.n)
+    loaded = AffineStep(backbone, contacts, interaction, loaded=True)
+    matrix = assemble(loaded.stiffness, contacts.i, contacts.j, backbone.n)
     factor = PinnedFactor(matrix, symmetric=contacts.tangential_displacement is None)
-    loaded = _moduli(backbone, contacts, interaction, stiffness, factor, True)
+    response = loaded.moduli(factor.solve(loaded.force))
     if is_frictionless(interaction):
-        return Rigidity(loaded, loaded)
-    return Rigidity(_moduli(backbone, contacts, interaction, stiffness, factor, False), loaded)
+        return Rigidity(response, response)
+    unloaded = AffineStep(backbone, contacts, interaction, loaded=False)
+    return Rigidity(unloaded.moduli(factor.solve(unloaded.force)), response)
 
 
-def _moduli(packing, contacts, interaction, stiffness, factor, loaded: bool) -> Moduli:
-    """One protocol: affine rate, non-affine response, both stress rates."""
-    branch = contacts.normal * contacts.distance[:, None]
-    affine = affine_displacement(contacts, stiffness.shape[1], loaded)
-    rate = np.einsum("cab,cb->ca", stiffness, affine)
-    u = factor.solve(net_rate(contacts, rate, packing.n)).reshape(packing.n, -1)
-    u[:, :2] -= u[:, :2].mean(axis=0)
-    response = np.einsum("cab,cb->ca", stiffness, relative(contacts, u))
-    carried = forces_on_i(contacts, interaction)[:, :2].T @ affine[:, :2]
-    area = packing.box_length**2
-    return Moduli(
-        -(rate[:, :2].T @ branch + carried) / area, -(response[:, :2].T @ branch) / area, u
-    )
+class AffineStep:
+    """An affine step of a packing without rattlers: what it loads, and what relaxing it gives.
+
+    `force` is Σ a on every grain, (N, k) in k_N d^(3/2) per unit strain.
+    """
+
+    def __init__(
+        self, packing: Packing, contacts: Contacts, interaction: Interaction, loaded: bool
+    ):
+        self._packing, self._contacts, self._interaction = packing, contacts, interaction
+        self.stiffness = stiffness_of(contacts, interaction)
+        self._affine = affine_displacement(contacts, self.stiffness.shape[1], loaded)
+        self._rate = np.einsum("cab,cb->ca", self.stiffness, self._affine)
+        self.force = net_rate(contacts, self._rate, packing.n)
+
+    def moduli(self, nonaffine: np.ndarray) -> Moduli:
+        """Both parts of dσ/dγ for a non-affine field u that solves J u = `force`, any shape."""
+        contacts, area = self._contacts, self._packing.box_length**2
+        u = nonaffine.reshape(self._packing.n, -1).copy()
+        u[:, :2] -= u[:, :2].mean(axis=0)
+        branch = contacts.normal * contacts.distance[:, None]
+        response = np.einsum("cab,cb->ca", self.stiffness, relative(contacts, u))
+        carried = forces_on_i(contacts, self._interaction)[:, :2].T @ self._affine[:, :2]
+        return Moduli(
+            -(self._rate[:, :2].T @ branch + carried) / area,
+            -(response[:, :2].T @ branch) / area,
+            u,
+        )
 
 
 def affine_displacement(contacts: Contacts, k: int, loaded: bool) -> np.ndarray:

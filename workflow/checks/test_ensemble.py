@@ -13,6 +13,9 @@ THEORY_AGAINST_SIMULATION = 1e-5
 """Largest difference of g and g_simulated where no contact changed, relative to g; twice the stated
 error of the simulation comes on top, for the softest samples."""
 
+MODE_SUM = 1e-8
+"""Largest difference of g from all modes and from one solve, relative to its affine part."""
+
 SUM_OF_PARTS = 1e-10
 """Largest relative difference of a modulus and the sum of its parts."""
 
@@ -75,6 +78,14 @@ def test_theory_is_simulation(ensemble, converged):
     )
     allowed = THEORY_AGAINST_SIMULATION * np.abs(theory) + 2.0 * error
     assert not (np.abs(simulation - theory) > allowed).any()
+
+
+def test_mode_sum_is_direct_solve(ensemble, converged):
+    _has(ensemble, "g", "g_mode_sum", "g_affine")
+    theory, modes, scale = (
+        ensemble[name].where(converged) for name in ("g", "g_mode_sum", "g_affine")
+    )
+    assert not (np.abs(modes - theory) > MODE_SUM * np.abs(scale)).any()
 
 
 @pytest.mark.parametrize("name", ["psi_rotational", "participation_ratio"])
