@@ -33,8 +33,8 @@ lint: $(READY)
 clean:
 	rm -rf results/* .snakemake .numba_cache .pytest_cache .ruff_cache .import_linter_cache
 
-$(READY): requirements.lock pyproject.toml
-	$(PYTHON) -m venv --clear .venv
+$(READY): requirements.lock
+	$(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --requirement requirements.lock
 	$(BIN)/python -m pip install --quiet --no-deps --editable .
 	touch $@

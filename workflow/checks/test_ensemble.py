@@ -55,7 +55,7 @@ def test_unjammed_samples_are_not_rigid(ensemble, converged):
     assert _all((ensemble["g"] == 0.0) | (ensemble["jammed"] == 1) | ~converged)
 
 
-@pytest.mark.parametrize("suffix", ["", "_loaded"])
+@pytest.mark.parametrize("suffix", ["", "_loaded"], ids=["unloaded", "loaded"])
 def test_parts_add_up(ensemble, converged, suffix):
     names = [f"g{suffix}", f"g_affine{suffix}", f"g_nonaffine{suffix}"]
     _has(ensemble, *names)
