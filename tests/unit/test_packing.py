@@ -180,3 +180,15 @@ def test_what_is_no_packing_is_refused(change, named):
 def test_grains_with_loaded_friction_cannot_be_taken_out():
     with pytest.raises(PackingError, match="loaded friction"):
         crowd(0, slip=0.2).without(np.arange(16) == 0)
+
+
+@pytest.mark.parametrize("strain", [-0.5, 0.5])
+def test_a_small_sheared_box_is_refused_or_right(strain):
+    """The touching image may lie outside the wrapped fractions unless L > 2 d √(1 + γ²)."""
+    apart = 0.95 * np.array([0.894, -0.447 * np.sign(strain)])
+    position = np.array([[1.5, 1.0], np.add([1.5, 1.0], apart)])
+    try:
+        packing = Packing.from_positions(position, np.ones(2), 2.05, strain)
+    except PackingError:
+        return
+    assert len(find_contacts(packing).i) == len(pairs_of(packing)) == 1
