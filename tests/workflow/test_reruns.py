@@ -65,7 +65,7 @@ def test_another_fraction_starts_from_the_checkpoints(study):
         ("figures/grainmodes.mplstyle", {"figure": 6}),
         ("cli/show.py", {}),
         ("configuration/rules.py", {}),
-        ("rigidity.py", {"rigidity": 4} | AFTER_POINTS),
+        ("protocols/step_strain.py", {"step_strain": 4} | AFTER_POINTS),
         ("spectrum/dense.py", {"spectrum": 4} | AFTER_POINTS),
         (
             "kernels/laws.py",

@@ -1,0 +1,5 @@
+"""One thread, and a cache of compiled kernels that belongs to the code under test."""
+
+from grainmodes.environment import prepare
+
+prepare()
