@@ -7,9 +7,11 @@ import naive
 from grainmodes.jacobian import jacobian
 from grainmodes.kernels.laws import interaction
 from grainmodes.linear import FloppyError, PinnedFactor
+from grainmodes.modes import elastic_modes, mode_sum
 from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters import ContactLaw
 from grainmodes.rigidity import affine_displacement, net_rate, relative, rigidity
+from grainmodes.spectrum import spectrum
 from specimens import (
     ELASTIC,
     KTS,
@@ -67,6 +69,25 @@ def test_mode_sum_is_the_direct_solve_with_slip(loaded):
     found = rigidity(packing, interaction(law))
     found = found.loaded if loaded else found.unloaded
     np.testing.assert_allclose((found.affine, found.nonaffine), twin, rtol=1e-8, atol=1e-11)
+
+
+@pytest.mark.parametrize("loaded", [False, True])
+@pytest.mark.parametrize("kt", MODE_SUM_KTS)
+@pytest.mark.parametrize("name", ELASTIC)
+def test_sum_over_the_modes_of_the_spectrum(name, kt, loaded):
+    packing, law = reference(name)[1], elastic(name, kt)
+    direct = rigidity(packing, law)
+    direct = direct.loaded if loaded else direct.unloaded
+    summed = mode_sum(packing, law, spectrum(packing, law), loaded=loaded)
+    np.testing.assert_array_equal(summed.affine, direct.affine)
+    np.testing.assert_allclose(summed.nonaffine, direct.nonaffine, rtol=1e-8, atol=1e-11)
+    # The eigenvalues of the rotational band, and with them its spins, are right to 1e-16 / kt.
+    np.testing.assert_allclose(summed.displacement[:, :2], direct.displacement[:, :2], atol=1e-8)
+
+
+def test_the_two_translations_are_left_out_wherever_they_stand():
+    eigenvalue = np.array([-0.3, -1e-9, 1e-17, -2e-16, 1e-9, 0.2])
+    assert elastic_modes(eigenvalue).tolist() == [0, 1, 4, 5]
 
 
 def test_parts_add_up_and_are_those_of_sigma_xy():
