@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Iterator
-from contextlib import contextmanager
-from functools import partial
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 
 from grainmodes import blocks
@@ -30,22 +29,25 @@ ANY_POINT = {"n": [1024], "phi": [0.9], "kt": [0.0], "seeds": 1}
 def compress(arguments: Namespace) -> None:
     """Random grains, or the checkpoint below → a checkpoint."""
     scene = _scene(arguments.settings, n=arguments.n, phi=arguments.phi)
-    make = partial(blocks.compress_block, arguments.n, arguments.seeds, arguments.phi)
-    how = scene.protocol.compression, scene.law.normal
-    if arguments.start is None:
-        block = make(*how, None)
-    else:
-        with _opened(arguments.start, "trajectories") as start:
-            block = make(*how, start)
+    opened = _opened(arguments.start, "trajectories") if arguments.start else nullcontext()
+    with opened as start:
+        block = blocks.compress_block(
+            arguments.n,
+            arguments.seeds,
+            arguments.phi,
+            scene.protocol.compression,
+            scene.law.normal,
+            start,
+        )
     write_block(arguments.output, block)
 
 
 def pack(arguments: Namespace) -> None:
     """A checkpoint → packings."""
     scene = _scene(arguments.settings, phi=arguments.phi)
-    how = scene.protocol.compression, scene.law.normal
+    compression, normal = scene.protocol.compression, scene.law.normal
     with _opened(arguments.start, "trajectories") as start:
-        block = blocks.packing_block(start, arguments.phi, *how)
+        block = blocks.packing_block(start, arguments.phi, compression, normal)
     write_block(arguments.output, block)
 
 
