@@ -17,7 +17,8 @@ import numpy as np
 
 from grainmodes import blocks
 from grainmodes.dataset import write_block
-from grainmodes.kernels.dynamics import Dashpot, Stop
+from grainmodes.kernels.damping import Dashpot
+from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.fire import FireSettings, fire
 from grainmodes.kernels.laws import Hertz, interaction
 from grainmodes.parameters import Compression, ContactLaw, checkpoints_up_to, phi_at_step

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import naive_dynamics as slow
-from grainmodes.kernels.dynamics import Dashpot, Drag, Stop, Undamped
+from grainmodes.kernels.damping import Dashpot, Drag, Undamped
+from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Elastic, Hertz, Interaction, interaction
 from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters import ContactLaw

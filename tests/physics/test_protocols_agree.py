@@ -5,7 +5,7 @@ import pytest
 from scipy.stats import ks_2samp
 
 from grainmodes.forces import stress
-from grainmodes.kernels.dynamics import Dashpot
+from grainmodes.kernels.damping import Dashpot
 from grainmodes.packing import Packing, find_contacts, rattlers
 from grainmodes.parameters import Compression
 from grainmodes.protocols.compression import advanced, balanced, placed

@@ -6,7 +6,8 @@ import pytest
 import naive
 import naive_dynamics as slow
 from grainmodes.forces import largest, net_force
-from grainmodes.kernels.dynamics import Dashpot, Drag, Stop, Undamped
+from grainmodes.kernels.damping import Dashpot, Drag, Undamped
+from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters import ContactLaw

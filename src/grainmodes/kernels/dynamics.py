@@ -13,7 +13,7 @@ Every velocity is that of q = (x, y, ℓ), in d/t_0.
 | --------- | ----------- | ---------------------- |
 | q̇         | vx, vy, w   | (N,) float64           |
 | s         | spring      | (P,) float64, per pair |
-| η         | Dashpot     | NamedTuple; Undamped has none |
+| η         | damping     | a type of damping.py   |
 """
 
 from __future__ import annotations
@@ -23,66 +23,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.kernels.compiler import implements, kernel
+from grainmodes.kernels.compiler import kernel
+from grainmodes.kernels.damping import drag_rate, pair_viscosity
 from grainmodes.kernels.laws import admissible, normal_response, tangential_response
 from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours, separation
 from grainmodes.kernels.repulsion import BLOCK
-
-
-class Dashpot(NamedTuple):
-    """Viscous force −η (v_N + v_T) on touching pairs, η in (m k_N)^(1/2) d^(1/4) (A)."""
-
-    viscosity: float
-
-
-class Drag(NamedTuple):
-    """Background drag −m η ṙ and −I η θ̇, η in 1/t_0 (B; C's overdamped runs)."""
-
-    rate: float
-
-
-class Undamped(NamedTuple):
-    """Newtonian dynamics (C)."""
-
-
-def pair_viscosity(damping):
-    """η of touching pairs."""
-    raise NotImplementedError("called from compiled code only")
-
-
-def drag_rate(damping):
-    """η of the background."""
-    raise NotImplementedError("called from compiled code only")
-
-
-@implements(pair_viscosity, Dashpot)
-def _dashpot_pairs(damping):
-    return damping.viscosity
-
-
-@implements(pair_viscosity, Drag)
-def _drag_pairs(damping):
-    return 0.0
-
-
-@implements(pair_viscosity, Undamped)
-def _no_pairs(damping):
-    return 0.0
-
-
-@implements(drag_rate, Dashpot)
-def _dashpot_drag(damping):
-    return 0.0
-
-
-@implements(drag_rate, Drag)
-def _drag_drag(damping):
-    return damping.rate
-
-
-@implements(drag_rate, Undamped)
-def _no_drag(damping):
-    return 0.0
 
 
 class Grains(NamedTuple):
@@ -109,6 +54,7 @@ class Stop(NamedTuple):
 
 
 LOOK = 20
+"""Steps between two looks at the unrest, whose maxima cost as much as a kick."""
 
 
 TINY = 1e-300

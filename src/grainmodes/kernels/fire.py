@@ -48,15 +48,38 @@ class FireSettings(NamedTuple):
     max_steps: int
 
 
+class Pace(NamedTuple):
+    """Time step and mixing; and what the next kick does, v → keep v + (steer + …) F.
+
+    `pending` is the half kick Δt/2 that the velocities have not been given yet.
+    """
+
+    time_step: float
+    mixing: float
+    downhill: int
+    keep: float
+    steer: float
+    pending: float
+
+
 @kernel
-def advance(x, y, vx, vy, fx, fy, inverse_mass, keep, force_gain, mass_gain, kick, strain):
-    """v → keep v + (force_gain + mass_gain/m) F, drift, clear F; return the longest drift.
+def capped(pace, limit):
+    """The pace with a time step of at most `limit`."""
+    time_step = min(pace.time_step, limit)
+    return Pace(time_step, pace.mixing, pace.downhill, pace.keep, pace.steer, pace.pending)
+
+
+@kernel
+def advance(x, y, vx, vy, fx, fy, inverse_mass, pace, units, strain):
+    """Pending half kick, mixing, next half kick, drift; clear F; return the longest drift.
 
     Clearing the forces here, while they are in the cache, saves the next pass a trip to memory.
     """
+    keep, steer, kick = pace.keep, pace.steer, pace.time_step * units
+    half_kicks = keep * pace.pending + 0.5 * pace.time_step
     longest = np.int64(0)
     for i in range(x.shape[0]):
-        gain = force_gain + mass_gain * inverse_mass[i]
+        gain = steer + half_kicks * inverse_mass[i]
         vx[i] = keep * vx[i] + gain * fx[i]
         vy[i] = keep * vy[i] + gain * fy[i]
         dx, dy = np.int64(kick * (vx[i] - strain * vy[i])), np.int64(kick * vy[i])
@@ -97,12 +120,28 @@ def largest_component(fx, fy):
 
 
 @kernel
-def stable_limit(settings, stiffness_bound, inverse_mass):
-    """Largest time step allowed now."""
-    frequency = math.sqrt(stiffness_bound * inverse_mass.max())
+def aims(x, y, box_length, strain, neighbours, normal, inverse_mass, settings):
+    """(force to reach, largest time step) at the present load of the contacts."""
+    mean_force, stiffness = load(x, y, box_length, strain, neighbours, normal)
+    goal = max(settings.force_tolerance, settings.balance * mean_force)
+    frequency = math.sqrt(stiffness * inverse_mass.max())
     if frequency == 0.0:
-        return settings.largest_time_step
-    return min(settings.largest_time_step, settings.stability * 2.0 / frequency)
+        return goal, settings.largest_time_step
+    return goal, min(settings.largest_time_step, settings.stability * 2.0 / frequency)
+
+
+@kernel
+def next_pace(pace, power, speed2, force2, limit):
+    """(A8)–(A12): faster while the motion goes downhill, stop where it does not."""
+    if not power > 0.0:
+        return Pace(DECREASE * pace.time_step, MIXING, 0, 0.0, 0.0, 0.0)
+    time_step, mixing = pace.time_step, pace.mixing
+    if pace.downhill >= PATIENCE:
+        time_step, mixing = min(INCREASE * time_step, limit), MIXING_DECAY * mixing
+    steer = pace.mixing * math.sqrt(speed2 / force2)
+    return Pace(
+        time_step, mixing, pace.downhill + 1, 1.0 - pace.mixing, steer, 0.5 * pace.time_step
+    )
 
 
 @kernel
@@ -112,49 +151,32 @@ def fire(x, y, diameter, inverse_mass, box_length, strain, normal, settings):
     Args: x, y (N,) int64 in 2⁻⁶⁴ L; diameter, inverse_mass (N,) float64; settings FireSettings.
     Returns: (largest force component, steps taken); the caller judges convergence.
     """
-    n = x.shape[0]
+    n, skin = x.shape[0], settings.skin
     units = 1.0 / (box_length * RESOLUTION)
-    reachable = np.int64(
-        min(0.5 / math.sqrt(2.0) * settings.skin * units / (1 + abs(strain)), 2e18)
-    )
-    neighbours = find_neighbours(x, y, diameter, box_length, strain, settings.skin)
+    free_path = np.int64(min(0.5 / math.sqrt(2.0) * skin * units / (1.0 + abs(strain)), 2e18))
+    neighbours = find_neighbours(x, y, diameter, box_length, strain, skin)
     scratch = pair_scratch(neighbours)
     origin_x, origin_y, wandered = x.copy(), y.copy(), np.int64(0)
     vx, vy, fx, fy = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
     repulsion(x, y, box_length, strain, neighbours, normal, scratch, fx, fy)
-    mean_force, bound = load(x, y, box_length, strain, neighbours, normal)
-    limit = stable_limit(settings, bound, inverse_mass)
-    time_step, mixing, downhill = 0.1 * limit, MIXING, 0
-    keep, mix, pending = 1.0, 0.0, 0.0
-    goal = max(settings.force_tolerance, settings.balance * mean_force)
+    goal, limit = aims(x, y, box_length, strain, neighbours, normal, inverse_mass, settings)
+    pace = Pace(0.1 * limit, MIXING, 0, 1.0, 0.0, 0.0)
     largest, steps = largest_component(fx, fy), 0
     while largest >= goal and steps < settings.max_steps:
         steps += 1
         if steps % REVIEW == 0:
-            mean_force, bound = load(x, y, box_length, strain, neighbours, normal)
-            goal = max(settings.force_tolerance, settings.balance * mean_force)
-            limit = stable_limit(settings, bound, inverse_mass)
-            time_step = min(time_step, limit)
-        half = 0.5 * time_step
-        gain = keep * pending + half
-        kick = time_step * units
-        wandered += advance(x, y, vx, vy, fx, fy, inverse_mass, keep, mix, gain, kick, strain)
-        if wandered > reachable:
+            goal, limit = aims(x, y, box_length, strain, neighbours, normal, inverse_mass, settings)
+            pace = capped(pace, limit)
+        wandered += advance(x, y, vx, vy, fx, fy, inverse_mass, pace, units, strain)
+        if wandered > free_path:
             wandered = farthest(x, y, origin_x, origin_y)
-        if wandered > reachable:
-            neighbours = find_neighbours(x, y, diameter, box_length, strain, settings.skin)
+        if wandered > free_path:
+            neighbours = find_neighbours(x, y, diameter, box_length, strain, skin)
             scratch = pair_scratch(neighbours)
             origin_x[:], origin_y[:], wandered = x, y, np.int64(0)
         repulsion(x, y, box_length, strain, neighbours, normal, scratch, fx, fy)
-        power, speed2, force2 = work(vx, vy, fx, fy, inverse_mass, half)
+        power, speed2, force2 = work(vx, vy, fx, fy, inverse_mass, 0.5 * pace.time_step)
         if force2 <= 2.0 * n * goal * goal:
             largest = largest_component(fx, fy)
-        if power > 0.0:
-            keep, mix, pending = 1.0 - mixing, mixing * math.sqrt(speed2 / force2), half
-            downhill += 1
-            if downhill > PATIENCE:
-                time_step, mixing = min(INCREASE * time_step, limit), MIXING_DECAY * mixing
-        else:
-            keep, mix, pending, mixing, downhill = 0.0, 0.0, 0.0, MIXING, 0
-            time_step *= DECREASE
+        pace = next_pace(pace, power, speed2, force2, limit)
     return largest_component(fx, fy), steps

@@ -19,7 +19,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from grainmodes.forces import is_frictionless, stress
-from grainmodes.kernels.dynamics import Dashpot
+from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing import Contacts, Packing, find_contacts, rattlers
 from grainmodes.parameters import StepStrain

@@ -1,0 +1,68 @@
+"""How motion is damped; a type, so that what a scene does not damp costs nothing.
+
+Dashpot    −η (v_N + v_T) on touching pairs                  A (7), (8)
+Drag       −m η ṙ and −I η θ̇ on every grain                  B; C's overdamped runs
+Undamped   nothing: Newtonian dynamics                       C
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from grainmodes.kernels.compiler import implements
+
+
+class Dashpot(NamedTuple):
+    """Viscous force −η (v_N + v_T) on touching pairs, η in (m k_N)^(1/2) d^(1/4) (A)."""
+
+    viscosity: float
+
+
+class Drag(NamedTuple):
+    """Background drag −m η ṙ and −I η θ̇, η in 1/t_0 (B; C's overdamped runs)."""
+
+    rate: float
+
+
+class Undamped(NamedTuple):
+    """Newtonian dynamics (C)."""
+
+
+def pair_viscosity(damping):
+    """η of touching pairs."""
+    raise NotImplementedError("called from compiled code only")
+
+
+def drag_rate(damping):
+    """η of the background."""
+    raise NotImplementedError("called from compiled code only")
+
+
+@implements(pair_viscosity, Dashpot)
+def _dashpot_pairs(damping):
+    return damping.viscosity
+
+
+@implements(pair_viscosity, Drag)
+def _drag_pairs(damping):
+    return 0.0
+
+
+@implements(pair_viscosity, Undamped)
+def _no_pairs(damping):
+    return 0.0
+
+
+@implements(drag_rate, Dashpot)
+def _dashpot_drag(damping):
+    return 0.0
+
+
+@implements(drag_rate, Drag)
+def _drag_drag(damping):
+    return damping.rate
+
+
+@implements(drag_rate, Undamped)
+def _no_drag(damping):
+    return 0.0
