@@ -49,7 +49,8 @@ def main() -> None:
     for title, name, n, target, unit in CASES:
         with get_context("spawn").Pool(1) as pool:
             value, memory = pool.apply(measured, (name, n))
-        print(f"{title:54} {n:6d} {value:10.3g} {target:9.3g} {unit:3} {memory:6.0f} MB", flush=True)
+        numbers = f"{n:6d} {value:10.3g} {target:9.3g} {unit:3} {memory:6.0f} MB"
+        print(f"{title:54} {numbers}", flush=True)
 
 
 if __name__ == "__main__":
