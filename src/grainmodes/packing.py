@@ -82,7 +82,8 @@ class Packing:
         position = np.asarray(position, float)
         diameter = np.array(diameter, float)
         mass = diameter**2 if mass is None else np.array(mass, float)
-        _check(position, diameter, mass, box_length)
+        _check(position, diameter, mass)
+        _check_box(diameter, box_length, strain)
         y = position[:, 1] / box_length
         x = position[:, 0] / box_length - strain * y
         return cls(
@@ -118,7 +119,12 @@ class Packing:
         return replace(self, box_length=float(np.sqrt(area / phi)))
 
     def sheared(self, strain: float) -> Packing:
-        """The same fractions in the box at strain γ: affine shear."""
+        """The same fractions in the box at strain γ: affine shear.
+
+        Raises:
+            PackingError: the box is too small to be sheared so far.
+        """
+        _check_box(self.diameter, self.box_length, strain)
         return replace(self, strain=float(strain))
 
     def displaced(self, displacement: np.ndarray) -> Packing:
@@ -200,7 +206,7 @@ def _to_fraction(value: np.ndarray) -> np.ndarray:
     ).view(np.int64)
 
 
-def _check(position, diameter, mass, box_length) -> None:
+def _check(position, diameter, mass) -> None:
     n = len(diameter)
     if position.shape != (n, 2) or mass.shape != (n,):
         raise PackingError(
@@ -213,8 +219,13 @@ def _check(position, diameter, mass, box_length) -> None:
         if bad.any():
             grain = int(np.argwhere(bad)[0][0])
             raise PackingError(f"{name} of grain {grain} is {array[grain]}: not a valid number")
-    if not (np.isfinite(box_length) and box_length > 2.0 * diameter.max()):
+
+
+def _check_box(diameter: np.ndarray, box_length: float, strain: float) -> None:
+    """A touching pair must be the image that wrapping s to [−1/2, 1/2) finds: r √(1 + γ²) < L/2."""
+    least = 2.0 * diameter.max() * np.sqrt(1.0 + strain**2)
+    if not (np.isfinite(box_length) and box_length > least):
         raise PackingError(
-            f"box_length = {box_length}: must exceed two diameters ({2 * diameter.max()}), "
-            "or a grain meets two images of another"
+            f"box_length = {box_length} at strain {strain}: must exceed {least:.6g}, two diameters "
+            "times sqrt(1 + strain^2), or a grain meets two images of another"
         )
