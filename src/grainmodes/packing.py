@@ -154,6 +154,9 @@ def find_contacts(packing: Packing) -> Contacts:
     Raises:
         PackingError: two grains lie at the same place.
     """
+    if packing.n == 0:
+        nothing = np.zeros(0, np.int32)
+        return Contacts(nothing, nothing, np.zeros((0, 2)), np.zeros(0), np.zeros(0))
     x, y = packing.fraction
     pairs = find_neighbours(x, y, packing.diameter, packing.box_length, packing.strain, 0.0)
     i, j = pairs.right.astype(np.int32), pairs.left.astype(np.int32)

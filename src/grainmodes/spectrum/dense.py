@@ -36,6 +36,10 @@ class Spectrum:
     modes: np.ndarray | None = None
 
 
+NO_MODES = Spectrum(np.zeros(0), np.zeros(0), np.zeros(0), 0.0, np.zeros((0, 0)))
+"""The spectrum of a packing of rattlers alone."""
+
+
 def spectrum(
     packing: Packing,
     interaction: Interaction,
@@ -51,6 +55,8 @@ def spectrum(
     if not keep_rattlers:
         gone = rattlers(find_contacts(packing), packing.n, threshold)
         packing = packing.without(gone) if gone.any() else packing
+    if packing.n == 0:
+        return NO_MODES
     contacts = find_contacts(packing)
     sparse = jacobian(packing, contacts, interaction)
     solve = _symmetric if contacts.tangential_displacement is None else _general
@@ -62,7 +68,7 @@ def spectrum(
         values,
         rotational_fraction(weight),
         participation_ratio(weight),
-        float(np.linalg.norm(sparse @ vectors - vectors * values, axis=0).max(initial=0.0)),
+        float(np.linalg.norm(sparse @ vectors - vectors * values, axis=0).max()),
         vectors,
     )
 
@@ -79,8 +85,6 @@ def participation_ratio(weight: np.ndarray) -> np.ndarray:
 
 
 def _symmetric(matrix: np.ndarray, modes: bool):
-    if len(matrix) == 0:
-        return np.zeros(0), np.zeros((0, 0)) if modes else None
     if not modes:
         return scipy.linalg.eigh(matrix, eigvals_only=True, overwrite_a=True, driver="evd"), None
     return scipy.linalg.eigh(matrix, overwrite_a=True, driver="evd")
