@@ -107,6 +107,8 @@ def test_spectrum_of_every_packing(n, phi, seed, normal, kt):
     assert found.residual < 1e-13 * max(1.0, kt)
     matrix = jacobian(core, find_contacts(core), law)
     assert found.eigenvalue.sum() == pytest.approx(matrix.trace(), rel=1e-12)
+    # A packing is a minimum, and friction that is not loaded only stiffens it.
+    assert found.eigenvalue[0] > -1e-12 * max(1.0, kt)
     if rigid(packing):
         size = np.sort(np.abs(found.eigenvalue))
         assert size[1] < 1e-13 * max(1.0, kt) < size[2]
