@@ -132,6 +132,6 @@ def start_up(n: int) -> float:
 
 def _cpu_of_job(command: list[str]) -> float:
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run([sys.executable, "-m", "grainmodes.cli", *command], check=True)
+    subprocess.run([Path(sys.executable).with_name("grainmodes"), *command], check=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
