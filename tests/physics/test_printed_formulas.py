@@ -7,6 +7,7 @@ import naive
 import printed
 from grainmodes.forces import stress
 from grainmodes.jacobian import jacobian, stiffness_of
+from grainmodes.kernels.fire import Pace, advance
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters import ContactLaw
@@ -229,3 +230,23 @@ def test_imaginary_part_of_an_eigenpair():
     np.testing.assert_allclose(matrix @ mode.imag, right, atol=1e-13)
     wrong = value.imag * mode.real + value.real * mode.real
     assert np.abs(matrix @ mode.imag - wrong).max() > 0.01
+
+
+def test_mixing_of_fire_in_paper_a_steers_away_from_the_force():
+    """A (A7) adds χ (v̂ − F)|v|: a velocity across the force ends up against it."""
+    force, velocity, mixing = np.array([0.0, 2.0]), np.array([3.0, 0.0]), 0.1
+    speed = np.linalg.norm(velocity)
+    printed = velocity + mixing * (velocity / speed - force) * speed
+    ours = mixed(velocity, force, mixing)
+    assert printed @ force < 0.0 < ours @ force
+    np.testing.assert_allclose(ours, [(1 - mixing) * 3.0, mixing * speed])
+
+
+def mixed(velocity: np.ndarray, force: np.ndarray, mixing: float) -> np.ndarray:
+    """The velocity after the mixing of our FIRE, without any kick."""
+    steer = mixing * np.linalg.norm(velocity) / np.linalg.norm(force)
+    pace = Pace(0.0, mixing, 1, 1.0 - mixing, steer, 0.0)
+    vx, vy, fx, fy = (np.array([value]) for value in (*velocity, *force))
+    x, y = np.zeros(1, np.int64), np.zeros(1, np.int64)
+    advance(x, y, vx, vy, fx, fy, np.ones(1), pace, 1.0, 0.0)
+    return np.array([vx[0], vy[0]])
