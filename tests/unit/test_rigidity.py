@@ -165,6 +165,12 @@ def test_a_floppy_packing_is_refused(position, kt):
         rigidity(packing, elastic("hertz", kt), threshold=0)
 
 
+def test_a_packing_of_rattlers_is_refused():
+    pair = Packing.from_positions([[1.0, 1.0], [1.95, 1.0]], np.ones(2), 8.0)
+    with pytest.raises(FloppyError):
+        rigidity(pair, elastic("hertz", 0.1))
+
+
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
 def test_factor_solves_general_jacobians(law):
     packing = reference(SHEARED)[1]
