@@ -22,6 +22,7 @@ SCENE = {
     "study": "tiny",
     "grid": {"n": [16], "phi": [0.8, 0.85], "kt": [1e-4, 1.0], "seeds": 2, "block": 2},
     "protocol": {"compression": {"phi_step": 0.01}},
+    "figures": ["g_phi", "dos"],
 }
 
 INSTALLED = [str(Path(sys.executable).with_name("snakemake"))]
@@ -66,8 +67,7 @@ class Study:
 
     def planned(self, *words: str) -> dict[str, int]:
         """Rule → number of jobs that would run."""
-        jobs = re.findall(r"^(\w+) +(\d+)$", self.run("-n", *words), re.MULTILINE)
-        return {rule: int(count) for rule, count in jobs if rule not in ("all", "total")}
+        return jobs_in(self.run("-n", *words))
 
     def edit(self, source: str) -> None:
         """Change a source of the package without changing what it does."""
@@ -81,6 +81,12 @@ class Study:
             path.relative_to(self.results).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
             for path in files
         }
+
+
+def jobs_in(plan: str) -> dict[str, int]:
+    """Rule → number of jobs, from what a dry run says."""
+    jobs = re.findall(r"^(\w+) +(\d+)$", plan, re.MULTILINE)
+    return {rule: int(count) for rule, count in jobs if rule not in ("all", "total")}
 
 
 def copy_of(folder: Path, target: Path) -> Study:

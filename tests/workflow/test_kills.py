@@ -90,5 +90,5 @@ def test_a_living_run_keeps_its_lock(fresh):
         assert "cannot be locked" in resume(fresh).stdout
         assert run.poll() is None
     finally:
-        run.terminate()
-        run.wait(timeout=120)
+        os.killpg(run.pid, signal.SIGKILL)
+        run.wait()
