@@ -122,15 +122,11 @@ def spectrum_block(packings: Block, law: ContactLaw, rattler: Rattlers, kind: st
             return {"eigenvalue": _padded(np.zeros(0), columns), "converged": True}
         threshold = _threshold(rattler, law)
         result = spectrum(packing, rule, threshold, rattler.keep, kind == "modes")
-        row = {
-            "eigenvalue": _padded(result.eigenvalue, columns),
-            "mode_count": len(result.eigenvalue),
-            "converged": True,
-        }
+        row = _eigenvalues(result.eigenvalue, columns)
         if kind != "modes":
             return row
         return row | {
-            "g_mode_sum": np.nan if rattler.keep else mode_sum(packing, rule, result, threshold).g,
+            "g_mode_sum": _mode_sum(packing, rule, result, rattler, threshold),
             "psi_rotational": _padded(result.psi_rotational, columns),
             "participation_ratio": _padded(result.participation_ratio, columns),
             "residual": result.residual,
@@ -138,6 +134,21 @@ def spectrum_block(packings: Block, law: ContactLaw, rattler: Rattlers, kind: st
 
     config = {"law": asdict(law), "rattlers": asdict(rattler), "spectrum": kind}
     return _response(packings, "spectrum", config, law, sample)
+
+
+def _eigenvalues(values: np.ndarray, columns: int) -> dict[str, object]:
+    """Eigenvalues of a row; the imaginary parts only where J is not symmetric."""
+    row = {"eigenvalue": _padded(values.real, columns), "mode_count": len(values)}
+    if np.iscomplexobj(values):
+        row["eigenvalue_imaginary"] = _padded(values.imag, columns)
+    return row | {"converged": True}
+
+
+def _mode_sum(packing, rule, result, rattler: Rattlers, threshold: int) -> float:
+    """g from the modes; not defined with rattlers in, or for a J that is not symmetric."""
+    if rattler.keep or np.iscomplexobj(result.eigenvalue):
+        return np.nan
+    return mode_sum(packing, rule, result, threshold).g
 
 
 def _response(packings: Block, stage: str, config: dict, law: ContactLaw, sample) -> Block:

@@ -52,7 +52,6 @@ VARIABLES: dict[str, Variable] = {
     "mass": Variable(("seed", "grain"), "f8", "m", "grain mass"),
     "box_length": Variable(BLOCK, "f8", "d", "side L of the periodic square box"),
     "strain": Variable(BLOCK, "f8", "1", "shear strain of the Lees-Edwards box"),
-    "rotation": Variable(("seed", "grain"), "f8", "d", "rotation coordinate l = d theta / 2"),
     "contact_i": Variable(("seed", "contact"), "i4", "1", "grain i of a contact, i > j; -1: none"),
     "contact_j": Variable(("seed", "contact"), "i4", "1", "grain j of a contact; -1: none"),
     "tangential_displacement": Variable(
@@ -106,6 +105,9 @@ VARIABLES: dict[str, Variable] = {
     # spectrum
     "eigenvalue": Variable(
         ("seed", "mode"), "f8", "k_N d^(1/2)", "eigenvalue of the Jacobian, ascending; NaN: no mode"
+    ),
+    "eigenvalue_imaginary": Variable(
+        ("seed", "mode"), "f8", "k_N d^(1/2)", "imaginary part, where the Jacobian is not symmetric"
     ),
     "psi_rotational": Variable(("seed", "mode"), "f8", "1", "rotational fraction psi^R of a mode"),
     "participation_ratio": Variable(("seed", "mode"), "f8", "1", "participation ratio p of a mode"),

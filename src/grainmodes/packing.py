@@ -59,6 +59,14 @@ class History:
     j: np.ndarray
     tangential_displacement: np.ndarray
 
+    def among(self, keep: np.ndarray) -> History:
+        """The contacts between the grains of a (N,) mask, in their new numbers."""
+        held = keep[self.i] & keep[self.j]
+        number = np.cumsum(keep, dtype=np.int32) - 1
+        return History(
+            number[self.i[held]], number[self.j[held]], self.tangential_displacement[held]
+        )
+
 
 @dataclass(frozen=True)
 class Packing:
@@ -135,16 +143,15 @@ class Packing:
         return replace(self, fraction=self.fraction + step)
 
     def without(self, mask: np.ndarray) -> Packing:
-        """The packing without the grains of a (N,) mask, renumbered; it must have no history."""
+        """The packing without the grains of a (N,) mask, renumbered, its springs with it."""
         keep = ~mask
-        if self.history is not None and mask.any():
-            raise PackingError("grains cannot be removed from a packing with loaded friction")
         return replace(
             self,
             fraction=np.ascontiguousarray(self.fraction[:, keep]),
             diameter=self.diameter[keep],
             mass=self.mass[keep],
             rotation=None if self.rotation is None else self.rotation[keep],
+            history=None if self.history is None else self.history.among(keep),
         )
 
 

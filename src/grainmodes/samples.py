@@ -7,7 +7,7 @@ import numpy as np
 from grainmodes.dataset import Block, BlockError
 from grainmodes.forces import largest, mean_contact_force, net_force, stress
 from grainmodes.kernels.laws import Frictionless, Interaction
-from grainmodes.packing import Contacts, Packing, find_contacts, rattlers
+from grainmodes.packing import Contacts, History, Packing, find_contacts, rattlers
 from grainmodes.parameters import Compression
 from grainmodes.protocols.compression import Trajectory
 
@@ -88,9 +88,15 @@ def is_jammed(
 def packing_of(block: Block, number: int) -> Packing:
     """The packing in a row: from the exact fractions, or from positions where there are none."""
     row = {name: array[number] for name, array in block.variables.items()}
+    history = _history(row)
     if "fraction" not in row:
         return Packing.from_positions(
-            row["position"], row["diameter"], row["box_length"], row.get("strain", 0.0)
+            row["position"],
+            row["diameter"],
+            row["box_length"],
+            row.get("strain", 0.0),
+            row.get("mass"),
+            history,
         )
     return Packing(
         np.ascontiguousarray(row["fraction"].T),
@@ -98,7 +104,18 @@ def packing_of(block: Block, number: int) -> Packing:
         row["mass"],
         float(row["box_length"]),
         float(row["strain"]),
+        history=history,
     )
+
+
+def _history(row: dict[str, np.ndarray]) -> History | None:
+    """The loaded springs of a row, if it has any."""
+    if "tangential_displacement" not in row:
+        return None
+    held = row["contact_i"] >= 0
+    i, j, s = (row[name][held] for name in ("contact_i", "contact_j", "tangential_displacement"))
+    order = np.lexsort((j, i))
+    return History(i[order], j[order], s[order])
 
 
 def jammed_packing(block: Block, number: int, interaction: Interaction) -> tuple[Packing, bool]:

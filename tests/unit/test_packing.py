@@ -177,9 +177,16 @@ def test_what_is_no_packing_is_refused(change, named):
         Packing.from_positions(**(good | change))
 
 
-def test_grains_with_loaded_friction_cannot_be_taken_out():
-    with pytest.raises(PackingError, match="loaded friction"):
-        crowd(0, slip=0.2).without(np.arange(16) == 0)
+def test_springs_keep_their_contacts_when_grains_are_taken_out():
+    packing = crowd(0, slip=0.2)
+    gone = np.isin(np.arange(packing.n), [0, 3, 7])
+    before, after = find_contacts(packing), find_contacts(packing.without(gone))
+    held = ~(gone[before.i] | gone[before.j])
+    number = np.cumsum(~gone) - 1
+    np.testing.assert_array_equal(number[before.i[held]], after.i)
+    np.testing.assert_array_equal(number[before.j[held]], after.j)
+    np.testing.assert_array_equal(before.displacement[held], after.displacement)
+    assert np.any(after.displacement != 0.0)
 
 
 @pytest.mark.parametrize("strain", [-0.5, 0.5])
