@@ -109,3 +109,4 @@ def test_mean_force_and_largest_force():
     alone = find_contacts(Packing.from_positions(position[1:3], np.ones(2), 8.0))
     assert mean_contact_force(alone, law) == 0.0
     assert largest(np.zeros((0, 3))) == (0.0, 0.0)
+    assert largest(np.array([[0.1, -0.3, 0.2], [0.2, 0.0, -0.5]])) == (0.3, 0.5)
