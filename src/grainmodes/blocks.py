@@ -12,7 +12,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from grainmodes.dataset import Block
+from grainmodes.dataset import Block, BlockError
 from grainmodes.forces import largest, net_force
 from grainmodes.kernels.laws import interaction
 from grainmodes.modes import mode_sum
@@ -22,8 +22,15 @@ from grainmodes.protocols.compression import advanced, balanced, placed
 from grainmodes.protocols.step_strain import step_strain
 from grainmodes.rigidity import Moduli, rigidity
 from grainmodes.rows import attribute, block_of
-from grainmodes.samples import checkpoint, jammed_packing, packed, trajectory_of
-from grainmodes.spectrum import spectrum
+from grainmodes.samples import (
+    check_same,
+    check_start,
+    checkpoint,
+    jammed_packing,
+    packed,
+    trajectory_of,
+)
+from grainmodes.spectrum import NO_MODES, spectrum
 
 
 def compress_block(
@@ -36,16 +43,19 @@ def compress_block(
 ) -> Block:
     """Trajectories at the checkpoint φ, from random placement or from the checkpoint `start`."""
     law = _normal(normal)
+    config = {"compression": asdict(compression), "normal": normal}
+    if start is not None:
+        check_start(start, config, phi)
+        check_same(start, n, seeds)
 
     def sample(number: int) -> dict[str, object]:
         before = (
             placed(n, seeds[number], law, compression)
             if start is None
-            else trajectory_of(start, number, compression)
+            else trajectory_of(start, number)
         )
         return checkpoint(advanced(before, phi, law, compression))
 
-    config = {"compression": asdict(compression), "normal": normal}
     attributes = _attributes("trajectories", config, n=n, phi=phi)
     failures = {} if start is None else attribute(start, "failures")
     return block_of(seeds, sample, failures, attributes)
@@ -54,19 +64,25 @@ def compress_block(
 def packing_block(start: Block, phi: float, compression: Compression, normal: str) -> Block:
     """Packings at φ in their final balance, each on a branch from its checkpoint."""
     law = _normal(normal)
+    config = {"compression": asdict(compression), "normal": normal}
+    check_start(start, config, phi)
 
     def sample(number: int) -> dict[str, object]:
-        grid = advanced(trajectory_of(start, number, compression), phi, law, compression)
+        grid = advanced(trajectory_of(start, number), phi, law, compression)
         relaxed = balanced(grid, phi, law, compression)
+        if not relaxed.converged:
+            raise ArithmeticError(
+                f"max|F| = {relaxed.max_force:.1e} after {relaxed.iterations} iterations"
+            )
         return packed(relaxed.packing, law) | {
             "phi_jamming": grid.phi_jamming,
-            "converged": relaxed.converged,
+            "converged": True,
             "iterations": relaxed.iterations,
         }
 
-    config = {"compression": asdict(compression), "normal": normal}
     attributes = _attributes("packings", config, n=int(start.attributes["n"]), phi=phi)
-    return block_of(start.variables["seed"], sample, attribute(start, "failures"), attributes)
+    failures = attribute(start, "failures")
+    return block_of(start.variables["seed"], sample, failures, attributes)
 
 
 def rigidity_block(packings: Block, law: ContactLaw, rattler: Rattlers) -> Block:
@@ -95,6 +111,11 @@ def step_strain_block(packings: Block, law: ContactLaw, step: StepStrain) -> Blo
         if not jammed:
             return {"g_simulated": 0.0, "g_simulated_forward": 0.0, "converged": True}
         result = step_strain(packing, rule, step)
+        if not result.converged:
+            raise ArithmeticError(
+                f"step strain {result.strain}: max|F| = {result.max_force:.1e}, max|2T/d| = "
+                f"{result.max_torque:.1e} after {result.iterations} iterations"
+            )
         return {
             "g_simulated": result.g,
             "g_simulated_forward": result.g_forward,
@@ -104,7 +125,7 @@ def step_strain_block(packings: Block, law: ContactLaw, step: StepStrain) -> Blo
             "iterations_simulated": result.iterations,
             "max_force_simulated": result.max_force,
             "max_torque_simulated": result.max_torque,
-            "converged": result.converged,
+            "converged": True,
         }
 
     config = {"law": asdict(law), "step_strain": asdict(step)}
@@ -118,15 +139,16 @@ def spectrum_block(packings: Block, law: ContactLaw, rattler: Rattlers, kind: st
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, rule)
         columns = packing.n * (3 if law.frictional else 2)
-        if not (jammed or rattler.keep):
-            return {"eigenvalue": _padded(np.zeros(0), columns), "converged": True}
         threshold = _threshold(rattler, law)
-        result = spectrum(packing, rule, threshold, rattler.keep, kind == "modes")
+        empty = not (jammed or rattler.keep)
+        result = (
+            NO_MODES if empty else spectrum(packing, rule, threshold, rattler.keep, kind == "modes")
+        )
         row = _eigenvalues(result.eigenvalue, columns)
         if kind != "modes":
             return row
         return row | {
-            "g_mode_sum": _mode_sum(packing, rule, result, rattler, threshold),
+            "g_mode_sum": 0.0 if empty else _mode_sum(packing, rule, result, rattler, threshold),
             "psi_rotational": _padded(result.psi_rotational, columns),
             "participation_ratio": _padded(result.participation_ratio, columns),
             "residual": result.residual,
@@ -146,13 +168,16 @@ def _eigenvalues(values: np.ndarray, columns: int) -> dict[str, object]:
 
 def _mode_sum(packing, rule, result, rattler: Rattlers, threshold: int) -> float:
     """g from the modes; not defined with rattlers in, or for a J that is not symmetric."""
-    if rattler.keep or np.iscomplexobj(result.eigenvalue):
+    if rattler.keep or packing.history is not None:
         return np.nan
     return mode_sum(packing, rule, result, threshold).g
 
 
 def _response(packings: Block, stage: str, config: dict, law: ContactLaw, sample) -> Block:
     """The block of an observable of `packings`, which carries their parameters along."""
+    absent = [name for name in ("n", "phi") if name not in packings.attributes]
+    if absent:
+        raise BlockError(f"the packings have no attribute {' and no '.join(absent)}")
     point = {name: packings.attributes[name] for name in ("n", "phi")} | {"kt": law.kt}
     attributes = _attributes(stage, attribute(packings, "config") | config, **point)
     failures = attribute(packings, "failures")

@@ -200,6 +200,9 @@ def read_block(path: str | Path) -> Block:
         raise BlockError(
             f"{path}: not a readable netCDF file, or a truncated one ({error})"
         ) from error
+    unknown = sorted(set(variables) - set(VARIABLES))
+    if unknown:
+        raise BlockError(f"{path}: unknown variable {', '.join(unknown)}, see docs/data.md")
     if "seed" not in variables:
         raise BlockError(f"{path}: holds no variable 'seed', so it is not a block of samples")
     return Block(variables, attributes)

@@ -23,7 +23,13 @@ def mode_sum(
     threshold: int = 2,
     loaded: bool = False,
 ) -> Moduli:
-    """g of a packing from the modes of its symmetric J without rattlers."""
+    """g of a packing from the modes of its symmetric J without rattlers.
+
+    Raises:
+        ValueError: the spectrum is that of a Jacobian that is not symmetric.
+    """
+    if packing.history is not None:
+        raise ValueError("the sum over modes needs a symmetric Jacobian, every s = 0")
     gone = rattlers(find_contacts(packing), packing.n, threshold)
     backbone = packing.without(gone) if gone.any() else packing
     step = AffineStep(backbone, find_contacts(backbone), interaction, loaded)

@@ -21,11 +21,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from grainmodes.box import PackingError, check_box, check_grains, to_fraction
 from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours
-
-
-class PackingError(ValueError):
-    """A packing that cannot be what it says; the message names the grain or the number."""
 
 
 @dataclass(frozen=True)
@@ -59,6 +56,13 @@ class History:
     j: np.ndarray
     tangential_displacement: np.ndarray
 
+    @classmethod
+    def of(cls, i: np.ndarray, j: np.ndarray, tangential_displacement: np.ndarray) -> History:
+        """The history of pairs in any order; s does not change sign when i and j are swapped."""
+        high, low = np.maximum(i, j), np.minimum(i, j)
+        order = np.lexsort((low, high))
+        return cls(high[order], low[order], np.asarray(tangential_displacement)[order])
+
     def among(self, keep: np.ndarray) -> History:
         """The contacts between the grains of a (N,) mask, in their new numbers."""
         held = keep[self.i] & keep[self.j]
@@ -90,19 +94,29 @@ class Packing:
         position = np.asarray(position, float)
         diameter = np.array(diameter, float)
         mass = diameter**2 if mass is None else np.array(mass, float)
-        _check(position, diameter, mass)
-        _check_box(diameter, box_length, strain)
+        check_grains(position, diameter, mass)
+        check_box(diameter, box_length, strain)
         y = position[:, 1] / box_length
         x = position[:, 0] / box_length - strain * y
         return cls(
-            np.stack([_to_fraction(x), _to_fraction(y)]),
+            np.stack([to_fraction(x), to_fraction(y)]),
             diameter,
             mass,
             float(box_length),
             float(strain),
             None,
-            history,
+            history and History.of(history.i, history.j, history.tangential_displacement),
         )
+
+    def checked(self) -> Packing:
+        """This packing.
+
+        Raises:
+            PackingError: a number is not finite, a diameter or mass not positive, L too small.
+        """
+        check_grains(self.fraction.T, self.diameter, self.mass)
+        check_box(self.diameter, self.box_length, self.strain)
+        return self
 
     @property
     def n(self) -> int:
@@ -118,7 +132,7 @@ class Packing:
     def position(self) -> np.ndarray:
         """Positions (N, 2) in [0, L) of the sheared frame, in d (rounded: `fraction` is exact)."""
         x, y = self.fraction * RESOLUTION + 0.5
-        sheared = (x + self.strain * (y - 0.5)) % 1.0
+        sheared = (x + self.strain * y) % 1.0
         return np.stack([sheared, y], axis=1) * self.box_length
 
     def at(self, phi: float) -> Packing:
@@ -132,7 +146,7 @@ class Packing:
         Raises:
             PackingError: the box is too small to be sheared so far.
         """
-        _check_box(self.diameter, self.box_length, strain)
+        check_box(self.diameter, self.box_length, strain)
         return replace(self, strain=float(strain))
 
     def displaced(self, displacement: np.ndarray) -> Packing:
@@ -175,9 +189,12 @@ def find_contacts(packing: Packing) -> Contacts:
     if np.any(distance == 0.0):
         k = int(np.argmin(distance))
         raise PackingError(f"grains {i[k]} and {j[k]} lie at the same place: no normal is defined")
-    normal = (delta / distance).T
+    # The search compares squares: a pair at exactly its contact distance may slip in.
+    touch = distance < reach
+    i, j, distance, overlap = i[touch], j[touch], distance[touch], (reach - distance)[touch]
+    normal = (delta[:, touch] / distance).T
     s = None if packing.history is None else _matched(packing.history, i, j, packing.n)
-    return Contacts(i, j, normal, distance, reach - distance, s)
+    return Contacts(i, j, normal, distance, overlap, s)
 
 
 def _matched(history: History, i: np.ndarray, j: np.ndarray, n: int) -> np.ndarray:
@@ -203,39 +220,3 @@ def rattlers(contacts: Contacts, n: int, threshold: int) -> np.ndarray:
         if not newly.any():
             return gone
         gone |= newly
-
-
-def _to_fraction(value: np.ndarray) -> np.ndarray:
-    """Real fractions of the box as integers in units of 2⁻⁶⁴, wrapped to [−1/2, 1/2)."""
-    wrapped = value - np.floor(value)
-    # 2⁻⁶⁴ resolution needs more than a float64 holds: split off the upper 32 bits.
-    high = np.floor(wrapped * 2.0**32)
-    low = np.rint((wrapped * 2.0**32 - high) * 2.0**32)
-    return (
-        high.astype(np.uint64) * np.uint64(2**32) + low.astype(np.uint64) - np.uint64(2**63)
-    ).view(np.int64)
-
-
-def _check(position, diameter, mass) -> None:
-    n = len(diameter)
-    if position.shape != (n, 2) or mass.shape != (n,):
-        raise PackingError(
-            f"positions {position.shape} and masses {mass.shape} do not fit {n} diameters"
-        )
-    if n < 2:
-        raise PackingError(f"a packing needs at least 2 grains, got {n}")
-    for name, array in (("position", position), ("diameter", diameter), ("mass", mass)):
-        bad = ~np.isfinite(array) if name == "position" else ~(np.isfinite(array) & (array > 0))
-        if bad.any():
-            grain = int(np.argwhere(bad)[0][0])
-            raise PackingError(f"{name} of grain {grain} is {array[grain]}: not a valid number")
-
-
-def _check_box(diameter: np.ndarray, box_length: float, strain: float) -> None:
-    """A touching pair must be the image that wrapping s to [−1/2, 1/2) finds: r √(1 + γ²) < L/2."""
-    least = 2.0 * diameter.max() * np.sqrt(1.0 + strain**2)
-    if not (np.isfinite(box_length) and box_length > least):
-        raise PackingError(
-            f"box_length = {box_length} at strain {strain}: must exceed {least:.6g}, two diameters "
-            "times sqrt(1 + strain^2), or a grain meets two images of another"
-        )

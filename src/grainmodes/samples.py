@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
+
 import numpy as np
 
 from grainmodes.dataset import Block, BlockError
 from grainmodes.forces import largest, mean_contact_force, net_force, stress
 from grainmodes.kernels.laws import Frictionless, Interaction
-from grainmodes.packing import Contacts, History, Packing, find_contacts, rattlers
+from grainmodes.packing import (
+    Contacts,
+    History,
+    Packing,
+    PackingError,
+    find_contacts,
+    rattlers,
+)
 from grainmodes.parameters import Compression
 from grainmodes.protocols.compression import Trajectory
+from grainmodes.rows import attribute
 
 BALANCE = 1e-6
 """Largest force on a grain, relative to the mean contact force, of a packing in balance."""
 
 LOAD = 1e3
 """A jammed packing's mean contact force is at least this many times the largest net force."""
-
-
-FORCE_FLOOR = 1e-10
-"""Mean contact force below which a packing counts as unloaded, balanced or not."""
 
 
 def checkpoint(trajectory: Trajectory) -> dict[str, object]:
@@ -32,22 +38,50 @@ def checkpoint(trajectory: Trajectory) -> dict[str, object]:
     }
 
 
-def trajectory_of(block: Block, number: int, protocol: Compression) -> Trajectory:
-    """The trajectory in a row of checkpoints.
+def check_start(block: Block, config: dict, phi: float) -> None:
+    """Refuse checkpoints that a compression with parameters `config` to φ cannot start from.
 
     Raises:
-        BlockError: the checkpoints were made with another Φ or initial φ.
+        BlockError: they lie above φ, or were made with other parameters.
     """
-    packing = packing_of(block, number)
-    row = {name: block.variables[name][number] for name in ("step", "phi_jamming", "iterations")}
-    phi = protocol.initial_phi + int(row["step"]) * protocol.phi_step
-    if abs(packing.phi - phi) > 1e-9:
+    made, asked = _flat(attribute(block, "config")), _flat(config)
+    differing = [key for key in asked if made.get(key) != asked[key]]
+    other = [f"{key} = {made.get(key)}, not {asked[key]}" for key in differing]
+    if other:
+        raise BlockError(f"the checkpoints belong to another compression: {'; '.join(other)}")
+    reached = float(block.attributes["phi"])
+    if reached > phi + 1e-12:
+        raise BlockError(f"the checkpoints stand at phi = {reached}, beyond the phi = {phi} asked")
+
+
+def _flat(config: dict) -> dict:
+    """The keys of a compression beside those around it."""
+    return {**config.get("compression", {}), "normal": config.get("normal")}
+
+
+def check_same(block: Block, n: int, seeds: range) -> None:
+    """Refuse checkpoints of other samples.
+
+    Raises:
+        BlockError: the block holds other seeds or another number of grains.
+    """
+    held = block.variables["seed"].tolist()
+    if held != list(seeds) or int(block.attributes["n"]) != n:
         raise BlockError(
-            f"checkpoint at phi = {packing.phi:.6f}, but {int(row['step'])} steps of "
-            f"{protocol.phi_step} from {protocol.initial_phi} end at {phi:.6f}: "
-            "it belongs to another compression"
+            f"the checkpoints hold {block.attributes['n']} grains, seeds {held}; asked for are {n} "
+            f"grains, seeds {list(seeds)}"
         )
-    return Trajectory(packing, int(row["step"]), float(row["phi_jamming"]), int(row["iterations"]))
+
+
+def trajectory_of(block: Block, number: int) -> Trajectory:
+    """The trajectory in a row of checkpoints."""
+    row = {name: block.variables[name][number] for name in ("step", "phi_jamming", "iterations")}
+    return Trajectory(
+        packing_of(block, number),
+        int(row["step"]),
+        float(row["phi_jamming"]),
+        int(row["iterations"]),
+    )
 
 
 def packed(packing: Packing, normal) -> dict[str, object]:
@@ -105,7 +139,7 @@ def packing_of(block: Block, number: int) -> Packing:
         float(row["box_length"]),
         float(row["strain"]),
         history=history,
-    )
+    ).checked()
 
 
 def _history(row: dict[str, np.ndarray]) -> History | None:
@@ -113,9 +147,8 @@ def _history(row: dict[str, np.ndarray]) -> History | None:
     if "tangential_displacement" not in row:
         return None
     held = row["contact_i"] >= 0
-    i, j, s = (row[name][held] for name in ("contact_i", "contact_j", "tangential_displacement"))
-    order = np.lexsort((j, i))
-    return History(i[order], j[order], s[order])
+    names = ("contact_i", "contact_j", "tangential_displacement")
+    return History.of(*(row[name][held] for name in names))
 
 
 def jammed_packing(block: Block, number: int, interaction: Interaction) -> tuple[Packing, bool]:
@@ -127,17 +160,30 @@ def jammed_packing(block: Block, number: int, interaction: Interaction) -> tuple
     """
     if not block.variables["converged"][number]:
         raise ArithmeticError("the packing did not reach its force balance")
-    packing = packing_of(block, number)
+    try:
+        packing = packing_of(block, number)
+    except PackingError as error:
+        raise BlockError(f"packing of seed {seed_of(block, number)}: {error}") from error
     contacts = find_contacts(packing)
     force, _ = largest(net_force(packing, contacts, interaction))
     mean = mean_contact_force(contacts, interaction)
-    jammed = is_jammed(packing, contacts, interaction, force)
-    if mean > FORCE_FLOOR and force > BALANCE * mean:
+    allowed = max(BALANCE * mean, force_tolerance(block))
+    if force > allowed:
         raise BlockError(
-            f"packing of seed {int(block.variables['seed'][number])} is not in force balance: "
-            f"max|F| = {force:.2e}, allowed is {BALANCE:.0e} of the mean contact force {mean:.2e}"
+            f"packing of seed {seed_of(block, number)} is not in force balance: max|F| = "
+            f"{force:.2e}, allowed is {allowed:.1e} at a mean contact force of {mean:.2e}"
         )
-    return packing, jammed
+    return packing, is_jammed(packing, contacts, interaction, force)
+
+
+def seed_of(block: Block, number: int) -> int:
+    """The seed of a row."""
+    return int(block.variables["seed"][number])
+
+
+def force_tolerance(block: Block) -> float:
+    """F_Th that the packings of a block were made to; of foreign ones A's 1e-14."""
+    return attribute(block, "config").get("compression", asdict(Compression()))["force_tolerance"]
 
 
 def _state(packing: Packing) -> dict[str, object]:

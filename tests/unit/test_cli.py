@@ -125,7 +125,7 @@ def test_a_truncated_file_is_refused(capsys, tmp_path, study, command):
             "holds trajectories, needed here are packings",
         ),
         (["pack", "packings.nc", "--phi", "0.9"], "holds packings, needed here are trajectories"),
-        (["pack", "checkpoint.nc", "--phi", "0.9"], "the checkpoints were made with"),
+        (["pack", "checkpoint.nc", "--phi", "0.9"], "belong to another compression"),
     ],
 )
 def test_a_file_of_another_stage_is_refused(capsys, tmp_path, study, words, sentence):

@@ -25,7 +25,7 @@ def conflicts(config: dict) -> Iterator[str]:
     """One sentence per conflict in a complete configuration that satisfies the schema."""
     missing_kt = list(_friction(config))
     yield from missing_kt
-    for rule in (_boxes, _coulomb, _spectrum, _steps):
+    for rule in (_boxes, _coulomb, _damped, _spectrum, _steps):
         yield from rule(config)
     if not missing_kt:
         yield from _figures(config)
@@ -49,6 +49,15 @@ def _friction(config: dict) -> Iterator[str]:
         yield "grid: key 'kt' is missing, needed is a list, or effects.friction: false"
     if not friction and kt is not None:
         yield f"grid.kt = {kt}: effects.friction is false, allowed is a grid without kt"
+
+
+def _damped(config: dict) -> Iterator[str]:
+    kt = config["grid"].get("kt", [0.0])
+    if config["protocol"]["step_strain"]["relaxation"] == "damped" and 0.0 in kt:
+        yield (
+            "protocol.step_strain.relaxation = 'damped': rotation does not exist at kt = 0, "
+            "allowed there is newton"
+        )
 
 
 def _coulomb(config: dict) -> Iterator[str]:

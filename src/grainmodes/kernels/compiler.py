@@ -9,8 +9,11 @@ from __future__ import annotations
 import inspect
 
 import llvmlite.binding
+import numba
 from numba import njit
 from numba.extending import overload, register_jitable
+
+from grainmodes.environment import numba_cache
 
 FLAGS = {
     "cache": True,
@@ -18,6 +21,10 @@ FLAGS = {
     "nogil": True,
     "fastmath": {"reassoc", "contract", "nsz"},
 }
+
+# numba's cache does not see an edit in a called function of another file, so its folder is named by
+# the fingerprint of the kernels, also where the package is used as a library.
+numba.config.CACHE_DIR = str(numba_cache())
 
 # Loops over many arrays need more overlap checks than LLVM's default allows before it vectorises.
 llvmlite.binding.set_option("", "--runtime-memory-check-threshold=128")

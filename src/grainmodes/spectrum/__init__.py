@@ -1,5 +1,5 @@
 """Eigenvalues and modes of the Jacobian."""
 
-from grainmodes.spectrum.dense import Spectrum, spectrum
+from grainmodes.spectrum.dense import NO_MODES, Spectrum, spectrum
 
-__all__ = ["Spectrum", "spectrum"]
+__all__ = ["NO_MODES", "Spectrum", "spectrum"]

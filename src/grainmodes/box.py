@@ -1,0 +1,46 @@
+"""What fits into the box: fractions of it as integers, and numbers that can be grains."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+class PackingError(ValueError):
+    """A packing that cannot be what it says; the message names the grain or the number."""
+
+
+def to_fraction(value: np.ndarray) -> np.ndarray:
+    """Real fractions of the box as integers in units of 2⁻⁶⁴, wrapped to [−1/2, 1/2)."""
+    wrapped = value - np.floor(value)
+    # 2⁻⁶⁴ resolution needs more than a float64 holds: split off the upper 32 bits.
+    high = np.floor(wrapped * 2.0**32)
+    low = np.rint((wrapped * 2.0**32 - high) * 2.0**32)
+    return (
+        high.astype(np.uint64) * np.uint64(2**32) + low.astype(np.uint64) - np.uint64(2**63)
+    ).view(np.int64)
+
+
+def check_grains(position, diameter, mass) -> None:
+    """Refuse positions (N, 2), diameters and masses (N,) that cannot be grains."""
+    n = len(diameter)
+    if position.shape != (n, 2) or mass.shape != (n,):
+        raise PackingError(
+            f"positions {position.shape} and masses {mass.shape} do not fit {n} diameters"
+        )
+    if n < 2:
+        raise PackingError(f"a packing needs at least 2 grains, got {n}")
+    for name, array in (("position", position), ("diameter", diameter), ("mass", mass)):
+        bad = ~np.isfinite(array) if name == "position" else ~(np.isfinite(array) & (array > 0))
+        if bad.any():
+            grain = int(np.argwhere(bad)[0][0])
+            raise PackingError(f"{name} of grain {grain} is {array[grain]}: not a valid number")
+
+
+def check_box(diameter: np.ndarray, box_length: float, strain: float) -> None:
+    """A touching pair must be the image that wrapping s to [−1/2, 1/2) finds: r √(1 + γ²) < L/2."""
+    least = 2.0 * diameter.max() * np.sqrt(1.0 + strain**2)
+    if not (np.isfinite(box_length) and np.isfinite(strain) and box_length > least):
+        raise PackingError(
+            f"box_length = {box_length} at strain {strain}: must exceed {least:.6g}, two diameters "
+            "times sqrt(1 + strain^2), or a grain meets two images of another"
+        )
