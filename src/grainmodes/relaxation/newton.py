@@ -20,6 +20,7 @@ import numpy as np
 
 from grainmodes.forces import is_frictionless, largest, net_force
 from grainmodes.jacobian import jacobian
+from grainmodes.kernels.contacts import kept_displacement
 from grainmodes.kernels.laws import Interaction
 from grainmodes.linear import FloppyError, PinnedFactor
 from grainmodes.packing import Contacts, History, Packing, find_contacts
@@ -62,7 +63,7 @@ def _step(packing, contacts, interaction, force):
     goal, length = max(largest(force)), 1.0
     while length >= SHORTEST_STEP:
         moved = moved_by(packing, contacts, interaction, length * u)
-        touching = find_contacts(moved)
+        moved, touching = slipped(moved, interaction)
         left = net_force(moved, touching, interaction)
         if max(largest(left)) < goal or goal == 0.0:
             return moved, touching, left
@@ -80,6 +81,16 @@ def moved_by(
     rotation = np.zeros(packing.n) if packing.rotation is None else packing.rotation
     s = contacts.displacement + _sliding(contacts, u)
     return replace(moved, rotation=rotation + u[:, 2], history=History(contacts.i, contacts.j, s))
+
+
+def slipped(packing: Packing, interaction: Interaction) -> tuple[Packing, Contacts]:
+    """The packing and its contacts, each spring no longer than its law lets it be."""
+    contacts = find_contacts(packing)
+    if packing.history is None:
+        return packing, contacts
+    s = kept_displacement(interaction, contacts.overlap, contacts.displacement)
+    history = History(contacts.i, contacts.j, s)
+    return replace(packing, history=history), replace(contacts, tangential_displacement=s)
 
 
 def _sliding(contacts: Contacts, u: np.ndarray) -> np.ndarray:
