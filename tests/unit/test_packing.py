@@ -54,9 +54,22 @@ def test_positions_survive_the_round_trip(strain):
     again = Packing.from_positions(
         packing.position, packing.diameter, packing.box_length, strain, packing.mass
     )
+    np.testing.assert_allclose(again.position, packing.position, atol=1e-14)
     before, after = find_contacts(packing), find_contacts(again)
     np.testing.assert_array_equal(before.i, after.i)
     np.testing.assert_allclose(before.overlap, after.overlap, atol=1e-14)
+
+
+def test_a_history_may_come_in_any_order():
+    packing = crowd(6, slip=0.3)
+    h, shuffle = packing.history, np.random.default_rng(0).permutation(len(packing.history.i))
+    swapped = History(h.j[shuffle], h.i[shuffle], h.tangential_displacement[shuffle])
+    again = Packing.from_positions(
+        packing.position, packing.diameter, packing.box_length, 0.0, packing.mass, swapped
+    )
+    np.testing.assert_array_equal(
+        find_contacts(again).displacement, find_contacts(packing).displacement
+    )
 
 
 def test_images_of_a_grain_are_one_grain():

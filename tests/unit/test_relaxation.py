@@ -13,7 +13,7 @@ from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters import ContactLaw
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fast, relax_fire, relax_loosely
-from grainmodes.relaxation.newton import moved_by, newton
+from grainmodes.relaxation.newton import moved_by, newton, slipped
 from specimens import ELASTIC, LAWS, MINIMAL, crowd, elastic, law_name, reference
 
 NORMAL = {name: elastic(name, 0.0).normal for name in ("hertz", "harmonic")}
@@ -128,16 +128,38 @@ def test_newton_is_quadratic_near_a_balance(name, kt):
         assert np.abs(drift(relaxed.packing, packing)).max() < 1e-10
 
 
-def test_newton_says_so_when_lost():
-    relaxed = newton(crowd(36), elastic("hertz", 0.0), 1e-14)
-    assert relaxed.converged == (relaxed.max_force < 1e-14)
-    assert relaxed.max_force == rest(relaxed.packing, "hertz")
+@pytest.mark.parametrize("kt", [0.0, 0.1])
+def test_newton_never_ends_worse_than_it_began(kt):
+    law, lost = elastic("hertz", kt), 0
+    for seed in range(12):
+        packing = crowd(seed, slip=0.2 if kt else 0.0)
+        relaxed = newton(packing, law, 1e-14, 3)
+        lost += not relaxed.converged
+        force = largest(net_force(relaxed.packing, find_contacts(relaxed.packing), law))
+        assert (relaxed.max_force, relaxed.max_torque) == force
+        assert relaxed.converged == (max(force) < 1e-14)
+        assert max(force) <= max(largest(net_force(packing, find_contacts(packing), law)))
+    assert lost > 0
 
 
 def test_newton_gives_up_on_grains_that_touch_nothing():
     packing = crowd(37).at(0.3)
     relaxed = newton(packing, elastic("hertz", 0.0), 1e-14)
     np.testing.assert_array_equal(relaxed.packing.fraction, packing.fraction)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=law_name)
+def test_springs_slip_where_their_law_does_not_hold_them(law):
+    packing = crowd(40, slip=4.0)
+    before = find_contacts(packing)
+    after, contacts = slipped(packing, interaction(law))
+    expected = before.displacement
+    if law.tangential == "sharp_coulomb":
+        limit = law.friction_coefficient / law.kt * before.overlap
+        assert np.any(np.abs(expected) > limit)
+        expected = np.clip(expected, -limit, limit)
+    np.testing.assert_allclose(contacts.displacement, expected, rtol=1e-13)
+    np.testing.assert_array_equal(find_contacts(after).displacement, contacts.displacement)
 
 
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
