@@ -27,7 +27,7 @@ from grainmodes.kernels.compiler import kernel
 from grainmodes.kernels.damping import drag_rate, pair_viscosity
 from grainmodes.kernels.laws import admissible, normal_response, tangential_response
 from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours, separation
-from grainmodes.kernels.repulsion import BLOCK
+from grainmodes.kernels.repulsion import BLOCK, pair_scratch
 
 
 class Grains(NamedTuple):
@@ -202,16 +202,6 @@ def carried(old, spring, new):
 
 
 @kernel
-def scratch_for(pairs):
-    """Room for the pair forces of the fullest block; shape (3, P_max)."""
-    n = pairs.first.shape[0] - 1
-    widest = 0
-    for begin in range(0, n, BLOCK):
-        widest = max(widest, pairs.first[min(begin + BLOCK, n)] - pairs.first[begin])
-    return np.empty((3, widest))
-
-
-@kernel
 def integrate(
     grains, box_length, strain, pairs, spring, interaction, damping, time_step, skin, stop
 ):
@@ -223,7 +213,7 @@ def integrate(
     units = 1.0 / (box_length * RESOLUTION)
     half_step = 0.5 * time_step
     reachable = np.int64(0.5 / math.sqrt(2.0) * skin * units / (1.0 + abs(strain)))
-    scratch = scratch_for(pairs)
+    scratch = pair_scratch(pairs, 3)
     wandered, steps = np.int64(0), 0
     contact_pass(grains, box_length, strain, 0.0, pairs, interaction, damping, spring, scratch)
     left = np.inf
@@ -233,7 +223,7 @@ def integrate(
         if wandered > reachable:
             fresh = find_neighbours(grains.x, grains.y, grains.diameter, box_length, strain, skin)
             spring = carried(pairs, spring, fresh)
-            pairs, scratch, wandered = fresh, scratch_for(fresh), np.int64(0)
+            pairs, scratch, wandered = fresh, pair_scratch(fresh, 3), np.int64(0)
         contact_pass(
             grains, box_length, strain, time_step, pairs, interaction, damping, spring, scratch
         )

@@ -155,7 +155,7 @@ def fire(x, y, diameter, inverse_mass, box_length, strain, normal, settings):
     units = 1.0 / (box_length * RESOLUTION)
     free_path = np.int64(min(0.5 / math.sqrt(2.0) * skin * units / (1.0 + abs(strain)), 2e18))
     neighbours = find_neighbours(x, y, diameter, box_length, strain, skin)
-    scratch = pair_scratch(neighbours)
+    scratch = pair_scratch(neighbours, 2)
     origin_x, origin_y, wandered = x.copy(), y.copy(), np.int64(0)
     vx, vy, fx, fy = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
     repulsion(x, y, box_length, strain, neighbours, normal, scratch, fx, fy)
@@ -172,7 +172,7 @@ def fire(x, y, diameter, inverse_mass, box_length, strain, normal, settings):
             wandered = farthest(x, y, origin_x, origin_y)
         if wandered > free_path:
             neighbours = find_neighbours(x, y, diameter, box_length, strain, skin)
-            scratch = pair_scratch(neighbours)
+            scratch = pair_scratch(neighbours, 2)
             origin_x[:], origin_y[:], wandered = x, y, np.int64(0)
         repulsion(x, y, box_length, strain, neighbours, normal, scratch, fx, fy)
         power, speed2, force2 = work(vx, vy, fx, fy, inverse_mass, 0.5 * pace.time_step)

@@ -53,14 +53,14 @@ def add_to_grains(neighbours, begin, end, pair_x, pair_y, force_x, force_y):
 
 
 @kernel
-def pair_scratch(neighbours):
-    """Room for the pair forces of the fullest block; shape (2, P_max)."""
+def pair_scratch(neighbours, components):
+    """Room for the pair forces of the fullest block; shape (components, P_max)."""
     first = neighbours.first
     n = first.shape[0] - 1
     widest = 0
     for begin in range(0, n, BLOCK):
         widest = max(widest, first[min(begin + BLOCK, n)] - first[begin])
-    return np.empty((2, widest))
+    return np.empty((components, widest))
 
 
 @kernel
