@@ -68,6 +68,7 @@ def test_damped_dynamics_end_where_newton_does(name, kt):
     )
     assert damped.converged
     assert max(damped.max_force, damped.max_torque) < 1e-14
+    assert newtonian.iterations < 30 < 1000 < damped.iterations
     assert damped.g == pytest.approx(newtonian.g, rel=1e-6)
 
 

@@ -115,6 +115,7 @@ def test_rattlers_are_moved_out_of_the_way():
     )
     relaxed = relax_fast(crowded, NORMAL["hertz"], 1e-14, PATIENT)
     assert relaxed.converged and rest(relaxed.packing, "hertz") < 1e-14
+    assert packing.n not in find_contacts(relaxed.packing).i
 
 
 @pytest.mark.parametrize("kt", [0.0, 1e-8, 1e-2, 10.0])
