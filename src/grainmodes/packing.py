@@ -220,3 +220,9 @@ def rattlers(contacts: Contacts, n: int, threshold: int) -> np.ndarray:
         if not newly.any():
             return gone
         gone |= newly
+
+
+def backbone(packing: Packing, threshold: int) -> Packing:
+    """The packing without its rattlers, those of at most `threshold` contacts."""
+    gone = rattlers(find_contacts(packing), packing.n, threshold)
+    return packing.without(gone) if gone.any() else packing

@@ -15,7 +15,9 @@ NORMAL_LAWS = ("hertz", "harmonic")
 TANGENTIAL_LAWS = ("elastic", "smoothed_coulomb", "sharp_coulomb")
 RELAXATIONS = ("fast", "fire")
 STRAIN_RELAXATIONS = ("newton", "damped")
-SPECTRA = ("none", "eigenvalues", "modes")
+SPECTRA = ("none", "counts", "bands", "eigenvalues", "modes")
+SPECTRUM_METHODS = ("auto", "dense", "windows", "counting")
+FACTORISATIONS = ("auto", "superlu", "pardiso")
 
 CHECKPOINT_SPACING = 0.01
 """Spacing in φ of the states along a compression from which every packing is reached."""
@@ -79,12 +81,29 @@ class Rattlers:
 
 
 @dataclass(frozen=True)
+class SpectrumChoices:
+    """How a spectrum is computed; "auto" takes the cheapest method that delivers what is asked.
+
+    `fineness` is a factor on the numbers of A's linear bins. Of a bin with more modes than
+    `modes_per_bin` the participation ratio is sampled on so many, and psi^R is counted in
+    `substeps` cells.
+    """
+
+    method: str = "auto"
+    factorisation: str = "auto"
+    fineness: float = 0.2
+    modes_per_bin: int = 60
+    substeps: int = 2
+
+
+@dataclass(frozen=True)
 class Protocol:
     """Every numerical choice of a study, with its default."""
 
     compression: Compression = field(default_factory=Compression)
     step_strain: StepStrain = field(default_factory=StepStrain)
     rattlers: Rattlers = field(default_factory=Rattlers)
+    spectrum: SpectrumChoices = field(default_factory=SpectrumChoices)
 
 
 @dataclass(frozen=True)

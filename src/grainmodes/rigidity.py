@@ -29,7 +29,7 @@ from grainmodes.forces import forces_on_i, is_frictionless
 from grainmodes.jacobian import SIGNS, assemble, stiffness_of
 from grainmodes.kernels.laws import Interaction
 from grainmodes.linear import PinnedFactor
-from grainmodes.packing import Contacts, Packing, find_contacts, rattlers
+from grainmodes.packing import Contacts, Packing, backbone, find_contacts
 
 
 @dataclass(frozen=True)
@@ -72,16 +72,15 @@ def rigidity(packing: Packing, interaction: Interaction, threshold: int = 2) -> 
     Raises:
         FloppyError: the backbone has zero modes beyond the translations.
     """
-    gone = rattlers(find_contacts(packing), packing.n, threshold)
-    backbone = packing.without(gone) if gone.any() else packing
-    contacts = find_contacts(backbone)
-    loaded = AffineStep(backbone, contacts, interaction, loaded=True)
-    matrix = assemble(loaded.stiffness, contacts.i, contacts.j, backbone.n)
+    rigid = backbone(packing, threshold)
+    contacts = find_contacts(rigid)
+    loaded = AffineStep(rigid, contacts, interaction, loaded=True)
+    matrix = assemble(loaded.stiffness, contacts.i, contacts.j, rigid.n)
     factor = PinnedFactor(matrix, symmetric=contacts.tangential_displacement is None)
     response = loaded.moduli(factor.solve(loaded.force))
     if is_frictionless(interaction):
         return Rigidity(response, response)
-    unloaded = AffineStep(backbone, contacts, interaction, loaded=False)
+    unloaded = AffineStep(rigid, contacts, interaction, loaded=False)
     return Rigidity(unloaded.moduli(factor.solve(unloaded.force)), response)
 
 

@@ -9,7 +9,7 @@ from grainmodes.kernels.laws import interaction
 from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters import ContactLaw
 from grainmodes.spectrum import spectrum
-from grainmodes.spectrum.dense import participation_ratio, rotational_fraction
+from grainmodes.spectrum.measures import participation_ratio, rotational_fraction
 from specimens import (
     ELASTIC,
     KTS,

