@@ -6,7 +6,7 @@
 #   snakemake -j1 results/default/rigidity/n~256/phi~0.873/kt~3e-05/seeds~0003-0003.nc
 #   snakemake -j1 benchmarks                            a table of speeds
 #
-# trajectories -> packings -> {rigidity, step_strain, spectrum} -> points -> ensemble -> figures
+# trajectories -> packings -> {rigidity, step_strain, spectra, probes} -> points -> ensemble -> figures
 
 
 include: "workflow/rules/common.smk"
@@ -23,4 +23,5 @@ rule all:
     input:
         ensemble=rules.ensemble.output,
         checks=rules.checks.output,
+        fields=files_of("fields", scene.field_points),
         figures=figures(),

@@ -140,15 +140,12 @@ def spectrum_block(packings: Block, law: ContactLaw, rattler: Rattlers, kind: st
         packing, jammed = jammed_packing(packings, number, rule)
         columns = packing.n * (3 if law.frictional else 2)
         threshold = _threshold(rattler, law)
-        empty = not (jammed or rattler.keep)
-        result = (
-            NO_MODES if empty else spectrum(packing, rule, threshold, rattler.keep, kind == "modes")
-        )
+        result = spectrum(packing, rule, threshold, modes=kind == "modes") if jammed else NO_MODES
         row = _eigenvalues(result.eigenvalue, columns)
         if kind != "modes":
             return row
         return row | {
-            "g_mode_sum": 0.0 if empty else _mode_sum(packing, rule, result, rattler, threshold),
+            "g_mode_sum": _mode_sum(packing, rule, result, threshold) if jammed else 0.0,
             "psi_rotational": _padded(result.psi_rotational, columns),
             "participation_ratio": _padded(result.participation_ratio, columns),
             "residual": result.residual,
@@ -166,9 +163,9 @@ def _eigenvalues(values: np.ndarray, columns: int) -> dict[str, object]:
     return row | {"converged": True}
 
 
-def _mode_sum(packing, rule, result, rattler: Rattlers, threshold: int) -> float:
-    """g from the modes; not defined with rattlers in, or for a J that is not symmetric."""
-    if rattler.keep or packing.history is not None:
+def _mode_sum(packing, rule, result, threshold: int) -> float:
+    """g from the modes; not defined for a J that is not symmetric."""
+    if packing.history is not None:
         return np.nan
     return mode_sum(packing, rule, result, threshold).g
 

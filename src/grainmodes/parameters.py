@@ -71,13 +71,25 @@ class StepStrain:
 
 @dataclass(frozen=True)
 class Rattlers:
-    """A grain with at most `threshold` contacts is a rattler (Z_Th of A, App. E).
-
-    `keep` leaves them in.
-    """
+    """A grain with at most `threshold` contacts is a rattler (Z_Th of A, App. E)."""
 
     threshold: int = 2
-    keep: bool = False
+
+
+@dataclass(frozen=True)
+class SpectrumChoices:
+    """How a spectrum is computed, and into which bins it is counted.
+
+    `fineness` is a factor on the numbers 500 and 100 of A's linear bins. The participation ratio
+    of a bin comes from a sample of `modes_per_bin` eigenvectors; where ψ^R is counted, each bin is
+    passed in `substeps` steps.
+    """
+
+    method: str = "auto"
+    factorisation: str = "auto"
+    fineness: float = 0.2
+    modes_per_bin: int = 60
+    substeps: int = 2
 
 
 @dataclass(frozen=True)
@@ -108,7 +120,7 @@ class Protocol:
 
 @dataclass(frozen=True)
 class Point:
-    """One point of the grid."""
+    """One point of a grid."""
 
     n: int
     phi: float
@@ -178,7 +190,7 @@ def checkpoints_up_to(phi: float) -> list[float]:
 
 @dataclass(frozen=True)
 class Figure:
-    """What a figure shows, and what its study must ask for."""
+    """What a figure shows, and what its study must ask for: words of `configuration.grids`."""
 
     title: str
     observables: tuple[str, ...]
@@ -202,4 +214,4 @@ FIGURES = {
     ),
 }
 """Every figure. `rigidity` figures show the simulated step strain as well where a study has it;
-`modes` stands for a spectrum with eigenvectors, `friction` for a k_T above 0."""
+`modes` stands for a spectrum with ψ and p, `friction` for a k_T above 0."""

@@ -90,6 +90,10 @@ def test_bad_usage(capsys, words, sentence):
         ([*SMALL, "--kt", "1", "--tangential", "sharp_coulomb"], "is missing"),
         ([*SMALL, "--kt", "1", "--settings", '{"protocol": {"x": 1}}'], "unknown key 'x'"),
         ([*SMALL, "--kt", "1", "--settings", '{"seed": 1}'], "unknown key 'seed'"),
+        (
+            [*SMALL, "--kt", "1", "--settings", '{"observables": {"spectrum": "all"}}'],
+            "observables.spectrum = 'all': allowed is one of none",
+        ),
     ],
 )
 def test_bad_points_are_refused_in_one_line(capsys, tmp_path, words, sentence):
@@ -180,7 +184,7 @@ def test_a_spectrum_of_nothing_is_refused(capsys, tmp_path, study):
     settings = ["--settings", '{"observables": {"spectrum": "none"}}']
     words = ["spectrum", str(study / "packings.nc"), "--kt", "1", *settings]
     assert main([*words, "-o", str(tmp_path / "s.nc")]) == 1
-    assert "allowed here are eigenvalues and modes" in capsys.readouterr().err
+    assert "allowed here are counts, bands, eigenvalues and modes" in capsys.readouterr().err
 
 
 def test_a_point_without_files_between(tmp_path, capsys):

@@ -20,7 +20,8 @@ CHECKOUT = Path(__file__).parents[2]
 
 SCENE = {
     "study": "tiny",
-    "grid": {"n": [16], "phi": [0.8, 0.85], "kt": [1e-4, 1.0], "seeds": 2, "block": 2},
+    "grids": [{"n": [16], "phi": [0.8, 0.85], "kt": [1e-4, 1.0], "seeds": 2}],
+    "block": 2,
     "protocol": {"compression": {"phi_step": 0.01}},
     "figures": ["g_phi", "dos"],
 }

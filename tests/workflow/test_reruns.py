@@ -1,7 +1,5 @@
 """What runs again: exactly what an addition or an edit touches."""
 
-from copy import deepcopy
-
 import pytest
 
 from .conftest import SCENE, jobs_in
@@ -9,12 +7,9 @@ from .conftest import SCENE, jobs_in
 AFTER_POINTS = {"point": 4, "ensemble": 1, "checks": 1, "figure": 2}
 
 
-def scene_with(path: str, value) -> dict:
-    """The tiny scene with one key changed."""
-    scene = deepcopy(SCENE)
-    room, key = path.split(".")
-    scene.setdefault(room, {})[key] = value
-    return scene
+def scene_with(**changes) -> dict:
+    """The tiny scene with some keys of its grid changed."""
+    return SCENE | {"grids": [SCENE["grids"][0] | changes]}
 
 
 def test_a_second_run_has_nothing_to_do(study):
@@ -37,7 +32,7 @@ def test_the_report_answers_every_question(built):
 
 
 def test_more_seeds_run_new_blocks_only(study):
-    study.write_scene(scene_with("grid.seeds", 4))
+    study.write_scene(scene_with(seeds=4))
     plan = study.run("-n")
     assert "seeds 0002-0003" in plan
     assert "seeds 0000-0001" not in plan
@@ -46,13 +41,13 @@ def test_more_seeds_run_new_blocks_only(study):
 
 
 def test_another_stiffness_makes_no_packing(study):
-    study.write_scene(scene_with("grid.kt", [1e-4, 1.0, 10.0]))
+    study.write_scene(scene_with(kt=[1e-4, 1.0, 10.0]))
     new = {"rigidity": 2, "step_strain": 2, "spectrum": 2}
     assert study.planned() == new | AFTER_POINTS | {"point": 2}
 
 
 def test_another_fraction_starts_from_the_checkpoints(study):
-    study.write_scene(scene_with("grid.phi", [0.8, 0.843, 0.85]))
+    study.write_scene(scene_with(phi=[0.8, 0.843, 0.85]))
     new = {"pack": 1, "rigidity": 2, "step_strain": 2, "spectrum": 2}
     assert study.planned() == new | AFTER_POINTS | {"point": 2}
 
@@ -86,6 +81,18 @@ def test_an_edited_figure_is_redrawn_alone(study):
     assert study.planned() == {}
 
 
+def test_another_grid_leaves_the_first_alone(study):
+    grid = SCENE["grids"][0] | {"phi": [0.853], "observables": {"spectrum": "none"}}
+    study.write_scene(SCENE | {"grids": [*SCENE["grids"], grid]})
+    new = {"pack": 1, "rigidity": 2, "step_strain": 2}
+    assert study.planned() == new | AFTER_POINTS | {"point": 2}
+
+
+def test_another_kind_of_spectrum_runs_spectra_alone(study):
+    study.write_scene(scene_with(observables={"spectrum": "eigenvalues"}))
+    assert study.planned() == {"spectrum": 4} | AFTER_POINTS
+
+
 def test_a_changed_setting_runs_its_stages(study):
-    study.write_scene(scene_with("protocol.rattlers", {"keep": True}))
+    study.write_scene(SCENE | {"protocol": SCENE["protocol"] | {"rattlers": {"threshold": 1}}})
     assert study.planned() == {"rigidity": 4, "spectrum": 4} | AFTER_POINTS

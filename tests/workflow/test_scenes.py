@@ -1,6 +1,6 @@
 """What a scene asks for is what runs; a mistaken scene runs nothing."""
 
-from copy import deepcopy
+import re
 
 import pytest
 
@@ -14,8 +14,8 @@ END = {"ensemble": 1, "checks": 1}
 
 def scene_of(observables: dict, **changes) -> dict:
     """The tiny scene with these observables, and every figure that they allow."""
-    scene = {key: value for key, value in deepcopy(SCENE).items() if key != "figures"}
-    return scene | {"observables": observables} | changes
+    scene = {key: value for key, value in SCENE.items() if key != "figures"}
+    return scene | {"grids": [SCENE["grids"][0] | {"observables": observables}]} | changes
 
 
 def test_only_rigidity(fresh):
@@ -33,14 +33,43 @@ def test_only_eigenvalues(fresh):
     assert jobs_in(plan) == PACKINGS | {"spectrum": 4, "point": 4, "figure": 2} | END
 
 
-def test_spectra_at_some_fractions(fresh):
-    fresh.write_scene(scene_of({"spectrum_phi": [0.85]}))
-    assert fresh.planned()["spectrum"] == 2
+def test_every_observable(fresh):
+    asked = ["rattlers", "hessian", "fields", "probes"]
+    fresh.write_scene(scene_of(dict.fromkeys(asked, True) | {"spectrum": "counts"}))
+    plan = fresh.run("-n", "-p")
+    jobs = jobs_in(plan)
+    for stage in ("spectrum", "spectrum_rattlers", "spectrum_hessian", "probes", "fields"):
+        assert jobs[stage] == 4
+    assert "--variant rattlers" in plan
+    assert "--variant hessian" in plan
+    (gather,) = re.findall(r"grainmodes gather .*phi~0.85/kt~1.0.nc", plan)
+    assert "spectrum_hessian/" in gather
+    assert "fields/" not in gather
+
+
+def test_grids_get_what_they_ask_for(fresh):
+    grid = SCENE["grids"][0]
+    grids = [
+        grid | {"phi": [0.8], "seeds": 4, "observables": {"spectrum": "none"}},
+        grid | {"phi": [0.85], "kt": [1.0], "observables": {"spectrum": "counts"}},
+        grid | {"phi": [0.85], "kt": [1e-4], "observables": {"rigidity": False}},
+    ]
+    fresh.write_scene(scene_of({}, grids=grids))
+    plan = fresh.run("-n", "-p")
+    jobs = jobs_in(plan)
+    assert {rule: jobs[rule] for rule in ("pack", "rigidity", "spectrum", "point")} == {
+        "pack": 3,
+        "rigidity": 5,
+        "spectrum": 2,
+        "point": 4,
+    }
+    assert plan.count('"spectrum": "counts"') == plan.count('"spectrum": "modes"') == 1
+    assert jobs["compress"] == 7
 
 
 def test_without_friction(fresh):
-    grid = {name: value for name, value in SCENE["grid"].items() if name != "kt"}
-    fresh.write_scene(scene_of({}, grid=grid, effects={"friction": False}))
+    grid = {name: value for name, value in SCENE["grids"][0].items() if name != "kt"}
+    fresh.write_scene(scene_of({}, grids=[grid], effects={"friction": False}))
     plan = fresh.run("-n")
     assert "k_T = 0.0" in plan
     assert "k_T = 1" not in plan
@@ -49,7 +78,8 @@ def test_without_friction(fresh):
 
 def test_the_default_scene_does_not_leak(fresh):
     default = fresh.folder / "config" / "default.yaml"
-    default.write_text(default.read_text() + "observables: {rigidity: false}\n")
+    default.write_text(default.read_text() + "block: 1\n")
+    fresh.write_scene({key: value for key, value in SCENE.items() if key != "block"})
     assert fresh.planned()["rigidity"] == 4
 
 
@@ -74,8 +104,9 @@ def test_a_fraction_out_of_range_is_refused_by_its_job(fresh):
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ({"colour": 1}, "unknown key 'colour', allowed are study, grid"),
-        ({"grid": SCENE["grid"] | {"n": [4]}}, "can touch two images of another"),
+        ({"colour": 1}, "unknown key 'colour', allowed are study, grids"),
+        ({"grids": [SCENE["grids"][0] | {"n": [4]}]}, "can touch two images of another"),
+        ({"grids": SCENE["grids"] * 2}, "also lies in grids[0]"),
     ],
 )
 def test_a_mistaken_scene_is_refused(fresh, change, sentence):

@@ -74,17 +74,34 @@ def checkpoint(wildcards, phi):
     return f"{STUDY}/trajectories/{BLOCK}".format(**names)
 
 
+def point_of(wildcards):
+    """n, phi and k_T of a path."""
+    return int(wildcards.n), float(wildcards.phi), float(wildcards.kt)
+
+
 def blocks_of_point(wildcards):
     """Packings and responses of a point, all blocks of seeds."""
-    stages = scene.responses(float(wildcards.phi))
+    point = point_of(wildcards)
+    stages = scene.responses(*point)
     files = [f"{STUDY}/packings/{BLOCK}", *(f"{STUDY}/{stage}/{RESPONSE}" for stage in stages)]
-    return expand(files, seeds=scene.blocks, **dict(wildcards.items()))
+    return expand(files, seeds=scene.blocks_of(*point), **dict(wildcards.items()))
 
 
-def points():
-    """Every point of the grid."""
-    n, phi, kt = ([*map(format_value, values)] for values in (scene.n, scene.phi, scene.kt))
-    return expand(f"{STUDY}/points/{POINT}", n=n, phi=phi, kt=kt)
+def first_packings(wildcards):
+    """The packings of a point that hold its sample of seed 0."""
+    seeds = scene.blocks_of(*point_of(wildcards))[0]
+    return f"{STUDY}/packings/{BLOCK}".format(seeds=seeds, **dict(wildcards.items()))
+
+
+def spectrum_settings(stage):
+    """The settings of a spectrum, whose kind is that of the point's grid."""
+    return lambda wildcards: scene.settings(stage, scene.spectrum_kind(*point_of(wildcards)))
+
+
+def files_of(room, points):
+    """One file in a room of the study for each of these points."""
+    names = ({key: format_value(value) for key, value in vars(p).items()} for p in points)
+    return [f"{STUDY}/{room}/{POINT}".format(**name) for name in names]
 
 
 def figures():

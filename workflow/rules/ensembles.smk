@@ -1,4 +1,4 @@
-# Blocks of seeds -> points of the grid -> one ensemble.
+# Blocks of seeds -> points of the grids -> one ensemble.
 
 
 rule point:
@@ -15,7 +15,7 @@ rule point:
 
 rule ensemble:
     input:
-        points=points(),
+        points=files_of("points", scene.points),
         code=sources("grainmodes.ensemble:write_ensemble"),
     output:
         f"{STUDY}/ensemble.nc",

@@ -1,4 +1,4 @@
-# Packings -> rigidity in theory, rigidity in simulation, spectrum, each for one k_T.
+# Packings -> rigidity in theory and simulation, spectra, fields, probes, each for one k_T.
 
 
 rule rigidity:
@@ -38,9 +38,69 @@ rule spectrum:
     output:
         f"{STUDY}/spectrum/{RESPONSE}",
     params:
-        settings=scene.settings("spectrum"),
+        settings=spectrum_settings("spectrum"),
     message:
         f"Spectrum at {AT}."
     shell:
         "grainmodes spectrum {input.packings} --kt {wildcards.kt}"
+        " --settings {params.settings:q} -o {output}"
+
+
+rule spectrum_rattlers:
+    input:
+        packings=f"{STUDY}/packings/{BLOCK}",
+        code=sources("grainmodes.blocks:spectrum_block"),
+    output:
+        f"{STUDY}/spectrum_rattlers/{RESPONSE}",
+    params:
+        settings=spectrum_settings("spectrum_rattlers"),
+    message:
+        f"Spectrum with rattlers at {AT}."
+    shell:
+        "grainmodes spectrum {input.packings} --variant rattlers --kt {wildcards.kt}"
+        " --settings {params.settings:q} -o {output}"
+
+
+rule spectrum_hessian:
+    input:
+        packings=f"{STUDY}/packings/{BLOCK}",
+        code=sources("grainmodes.blocks:spectrum_block"),
+    output:
+        f"{STUDY}/spectrum_hessian/{RESPONSE}",
+    params:
+        settings=scene.settings("spectrum_hessian"),
+    message:
+        f"Spectrum of the effective Hessian at {AT}."
+    shell:
+        "grainmodes spectrum {input.packings} --variant hessian --kt {wildcards.kt}"
+        " --settings {params.settings:q} -o {output}"
+
+
+rule probes:
+    input:
+        packings=f"{STUDY}/packings/{BLOCK}",
+        code=sources("grainmodes.probes"),
+    output:
+        f"{STUDY}/probes/{RESPONSE}",
+    params:
+        settings=scene.settings("probes"),
+    message:
+        f"Probe what single claims need at {AT}."
+    shell:
+        "grainmodes probes {input.packings} --kt {wildcards.kt}"
+        " --settings {params.settings:q} -o {output}"
+
+
+rule fields:
+    input:
+        packings=first_packings,
+        code=sources("grainmodes.field_blocks"),
+    output:
+        f"{STUDY}/fields/{POINT}",
+    params:
+        settings=scene.settings("fields"),
+    message:
+        "Fields at n = {wildcards.n}, phi = {wildcards.phi}, k_T = {wildcards.kt}."
+    shell:
+        "grainmodes fields {input.packings} --kt {wildcards.kt}"
         " --settings {params.settings:q} -o {output}"

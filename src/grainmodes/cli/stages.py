@@ -12,10 +12,11 @@ from grainmodes.configuration import ConfigurationError, Scene, scene_of
 from grainmodes.dataset import Block, BlockError, read_block, write_block
 
 OPTIONS = {
-    "grid.n[0]": "--n",
-    "grid.phi[0]": "--phi",
-    "grid.kt[0]": "--kt",
-    "grid.n": "--n",
+    "grids[0].n[0]": "--n",
+    "grids[0].phi[0]": "--phi",
+    "grids[0].kt[0]": "--kt",
+    "grids[0].n": "--n",
+    "grids[0].observables": "observables",
     "contact_law.normal": "--normal",
     "contact_law.tangential": "--tangential",
     "contact_law.friction_coefficient": "--friction-coefficient",
@@ -72,10 +73,10 @@ def step_strain(arguments: Namespace) -> None:
 def spectrum(arguments: Namespace) -> None:
     """Packings → eigenvalues."""
     scene = _scene(arguments.settings, kt=arguments.kt)
-    law, kind = scene.law_at(arguments.kt), scene.spectrum
+    law, kind = scene.law_at(arguments.kt), scene.grids[0].observables.spectrum
     if kind == "none":
         raise ConfigurationError(
-            "observables.spectrum = 'none': allowed here are eigenvalues and modes"
+            "observables.spectrum = 'none': allowed here are counts, bands, eigenvalues and modes"
         )
     with _opened(arguments.packings, "packings") as packings:
         block = blocks.spectrum_block(packings, law, scene.protocol.rattlers, kind)
@@ -94,7 +95,7 @@ def point(arguments: Namespace) -> None:
         scene.law_at(arguments.kt),
         arguments.seeds,
         scene.protocol,
-        scene.spectrum,
+        scene.grids[0].observables.spectrum,
     )
     write_block(arguments.output, block)
 
@@ -130,9 +131,12 @@ def _opened(path: Path, stage: str) -> Iterator[Block]:
 
 def _scene(settings: dict, **point: float) -> Scene:
     """The scene of one point: the same defaults, ranges and messages as for a whole study."""
-    asked = {name: [value] for name, value in point.items()}
+    grid = ANY_POINT | {name: [value] for name, value in point.items()}
+    if "observables" in settings:
+        grid["observables"] = settings["observables"]
+    rest = {key: value for key, value in settings.items() if key != "observables"}
     try:
-        return scene_of({**settings, "study": "by-hand", "grid": ANY_POINT | asked})
+        return scene_of({**rest, "study": "by-hand", "grids": [grid]})
     except ConfigurationError as error:
         message = str(error)
         for key, option in OPTIONS.items():

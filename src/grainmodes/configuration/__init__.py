@@ -9,10 +9,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from grainmodes.configuration import rules
+from grainmodes.configuration.grids import Grid, Observables
 from grainmodes.configuration.scene import Scene
 from grainmodes.configuration.schema import complete, mistakes, schema
 
-__all__ = ["ConfigurationError", "Scene", "read_scene", "scene_of"]
+__all__ = ["ConfigurationError", "Grid", "Observables", "Scene", "read_scene", "scene_of"]
 
 
 class ConfigurationError(ValueError):
@@ -46,5 +47,5 @@ def read_scene(path: str | Path) -> Scene:
         reason = " ".join(str(error).split())
         raise ConfigurationError(f"{path}: not a readable YAML file ({reason})") from error
     if not isinstance(config, dict):
-        raise ConfigurationError(f"{path}: holds no keys, needed are study and grid")
+        raise ConfigurationError(f"{path}: holds no keys, needed are study and grids")
     return scene_of(config)

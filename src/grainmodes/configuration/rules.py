@@ -1,59 +1,27 @@
-"""What no schema can say of a scene: how its keys go together.
-
-Box. A pair of grains touches twice if two images of one lie within reach d of the other (d: the
-diameter of a large grain). Images differ by a vector of the lattice of the box, at least L long for
-every shear strain up to 1/2, so L >= 2 d rules it out. Half the grains having diameter d and half
-d/1.4, L^2 = N (pi/8)(1 + 1/1.4^2) d^2 / phi.
-"""
+"""What no schema can say of a scene: how its keys go together; its grids: `grid_rules`."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
-from grainmodes.configuration.scene import lacking
+from grainmodes.configuration.grid_rules import grid_conflicts
+from grainmodes.configuration.grids import Grid, lacking
 from grainmodes.parameters import CHECKPOINT_SPACING, FIGURES, LOWEST_CHECKPOINT
-
-AREA_PER_GRAIN = math.pi / 8 * (1 + 1 / 1.4**2)
-"""Mean area of a grain, in d^2."""
-
-SMALLEST_BOX = 2.0
-"""Smallest side of the box, in d."""
 
 
 def conflicts(config: dict) -> Iterator[str]:
     """One sentence per conflict in a complete configuration that satisfies the schema."""
-    missing_kt = list(_friction(config))
-    yield from missing_kt
-    for rule in (_boxes, _coulomb, _damped, _spectrum, _steps):
+    found = list(grid_conflicts(config))
+    yield from found
+    for rule in (_coulomb, _damped, _steps):
         yield from rule(config)
-    if not missing_kt:
+    if not found:
         yield from _figures(config)
 
 
-def _boxes(config: dict) -> Iterator[str]:
-    phi = max(config["grid"]["phi"])
-    fewest = 2 * math.ceil(SMALLEST_BOX**2 * phi / AREA_PER_GRAIN / 2)
-    for n in config["grid"]["n"]:
-        side = math.sqrt(n * AREA_PER_GRAIN / phi)
-        if side < SMALLEST_BOX:
-            yield (
-                f"grid.n = {n}: at phi = {phi} the box is {side:.2f} d wide and a grain can touch "
-                f"two images of another, allowed are boxes of {SMALLEST_BOX} d, so n >= {fewest}"
-            )
-
-
-def _friction(config: dict) -> Iterator[str]:
-    friction, kt = config["effects"]["friction"], config["grid"].get("kt")
-    if friction and kt is None:
-        yield "grid: key 'kt' is missing, needed is a list, or effects.friction: false"
-    if not friction and kt is not None:
-        yield f"grid.kt = {kt}: effects.friction is false, allowed is a grid without kt"
-
-
 def _damped(config: dict) -> Iterator[str]:
-    kt = config["grid"].get("kt", [0.0])
-    if config["protocol"]["step_strain"]["relaxation"] == "damped" and 0.0 in kt:
+    frictionless = any(0.0 in grid.get("kt", [0.0]) for grid in config["grids"])
+    if config["protocol"]["step_strain"]["relaxation"] == "damped" and frictionless:
         yield (
             "protocol.step_strain.relaxation = 'damped': rotation does not exist at kt = 0, "
             "allowed there is newton"
@@ -75,19 +43,6 @@ def _coulomb(config: dict) -> Iterator[str]:
         )
 
 
-def _spectrum(config: dict) -> Iterator[str]:
-    observables, grid = config["observables"], config["grid"]
-    asked = observables.get("spectrum_phi", [])
-    if asked and observables["spectrum"] == "none":
-        yield (
-            f"observables.spectrum_phi = {asked}: observables.spectrum is none, allowed with "
-            "spectrum_phi are eigenvalues and modes"
-        )
-    for phi in asked:
-        if phi not in grid["phi"]:
-            yield f"observables.spectrum_phi: {phi} is not in grid.phi, allowed are {grid['phi']}"
-
-
 def _steps(config: dict) -> Iterator[str]:
     compression = config["protocol"]["compression"]
     step, start = compression["phi_step"], compression["initial_phi"]
@@ -104,19 +59,26 @@ def _steps(config: dict) -> Iterator[str]:
 
 
 def _figures(config: dict) -> Iterator[str]:
+    grids = [Grid.of(grid) for grid in config["grids"]]
     for name in config.get("figures", []):
         if name not in FIGURES:
             yield f"figures: unknown figure {name!r}, allowed are {', '.join(FIGURES)}"
             continue
-        for need in lacking(name, config):
+        for need in lacking(name, grids):
             yield f"figures: {name!r} needs {NEEDED[need]}, which this scene does not ask for"
 
 
 NEEDED = {
     "rigidity": "observables.rigidity: true",
-    "spectrum": "observables.spectrum: eigenvalues or modes",
-    "modes": "observables.spectrum: modes",
-    "friction": "a kt above 0",
+    "spectrum": "observables.spectrum: counts, bands, eigenvalues or modes",
+    "modes": "observables.spectrum: bands or modes",
+    "rattlers": "observables.rattlers: true",
+    "hessian": "observables.hessian: true",
+    "fields": "observables.fields: true",
+    "friction": "these observables at a kt above 0",
+    "frictionless": "these observables at kt = 0",
+    "several_n": "these observables at more than one n",
+    "several_phi": "these observables at more than one phi",
 }
 
 

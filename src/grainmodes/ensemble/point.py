@@ -16,7 +16,15 @@ import numpy as np
 
 from grainmodes.dataset import VARIABLES, Block, BlockError, read_block
 
-STAGES = ("packings", "rigidity", "step_strain", "spectrum")
+STAGES = (
+    "packings",
+    "rigidity",
+    "step_strain",
+    "spectrum",
+    "spectrum_rattlers",
+    "spectrum_hessian",
+    "probes",
+)
 """Values of the attribute `stage`, in the order in which names win."""
 
 PER_SAMPLE = (("seed",), ("seed", "mode"))

@@ -1,0 +1,95 @@
+"""What no schema can say of the grids of a scene.
+
+Box. A pair of grains touches twice if two images of one lie within reach d of the other (d: the
+diameter of a large grain). Images differ by a vector of the lattice of the box, at least L long for
+every shear strain up to 1/2, so L >= 2 d rules it out. Half the grains having diameter d and half
+d/1.4, L^2 = N (pi/8)(1 + 1/1.4^2) d^2 / phi.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import combinations
+
+from grainmodes.configuration.grids import Grid
+
+AREA_PER_GRAIN = math.pi / 8 * (1 + 1 / 1.4**2)
+"""Mean area of a grain, in d^2."""
+
+SMALLEST_BOX = 2.0
+"""Smallest side of the box, in d."""
+
+
+def grid_conflicts(config: dict) -> Iterator[str]:
+    """One sentence per conflict in and between the grids of a complete configuration."""
+    wrong_kt = list(_friction(config))
+    yield from wrong_kt
+    for rule in (_boxes, _blocks, _rattlers):
+        yield from rule(config)
+    if not wrong_kt:
+        yield from _points(config)
+
+
+def _friction(config: dict) -> Iterator[str]:
+    friction = config["effects"]["friction"]
+    for place, grid in enumerate(config["grids"]):
+        kt = grid.get("kt")
+        if friction and kt is None:
+            yield (
+                f"grids[{place}]: key 'kt' is missing, needed is a list, or effects.friction: false"
+            )
+        if not friction and kt is not None:
+            yield (
+                f"grids[{place}].kt = {kt}: effects.friction is false, allowed is a grid without kt"
+            )
+
+
+def _boxes(config: dict) -> Iterator[str]:
+    for place, grid in enumerate(config["grids"]):
+        phi = max(grid["phi"])
+        fewest = 2 * math.ceil(SMALLEST_BOX**2 * phi / AREA_PER_GRAIN / 2)
+        for n in grid["n"]:
+            side = math.sqrt(n * AREA_PER_GRAIN / phi)
+            if side < SMALLEST_BOX:
+                yield (
+                    f"grids[{place}].n = {n}: at phi = {phi} the box is {side:.2f} d wide and a "
+                    f"grain can touch two images of another, allowed are boxes of {SMALLEST_BOX} d,"
+                    f" so n >= {fewest}"
+                )
+
+
+def _points(config: dict) -> Iterator[str]:
+    """A point in two grids would have two lists of observables."""
+    grids = enumerate(map(Grid.of, config["grids"]))
+    for (first, one), (second, other) in combinations(grids, 2):
+        common = next(filter(one.holds, other.points), None)
+        if common:
+            n, phi, kt = common.n, common.phi, common.kt
+            yield (
+                f"grids[{second}]: the point n = {n}, phi = {phi}, kt = {kt} also lies in "
+                f"grids[{first}], allowed is every point in one grid"
+            )
+
+
+def _blocks(config: dict) -> Iterator[str]:
+    """Grids of the same n share trajectories, so a file of one must do for the other."""
+    block = config["block"]
+    for (first, one), (second, other) in combinations(enumerate(config["grids"]), 2):
+        shared = sorted(set(one["n"]) & set(other["n"]))
+        fewer, more = sorted((one["seeds"], other["seeds"]))
+        if shared and fewer != more and fewer % block:
+            yield (
+                f"grids[{second}].seeds = {other['seeds']}: grids[{first}] has {one['seeds']} "
+                f"samples of n = {shared[0]} and both share files of {block} (block), allowed are "
+                "equal numbers, or the smaller one a whole number of blocks"
+            )
+
+
+def _rattlers(config: dict) -> Iterator[str]:
+    for place, grid in enumerate(config["grids"]):
+        if grid["observables"]["rattlers"] and grid["observables"]["spectrum"] == "none":
+            yield (
+                f"grids[{place}].observables.rattlers = True: observables.spectrum is none, "
+                "allowed with rattlers are counts, bands, eigenvalues and modes"
+            )
