@@ -17,6 +17,16 @@ ROTATIONAL_WINDOW = (0.1, 2.0)
 """Range of omega / omega_R that is divided linearly."""
 
 
+LOWEST = 0.01
+"""First edge of counted bins, in omega_R."""
+
+SAFE = 1e-7
+"""Lowest omega t_0 that counts can tell from a zero mode."""
+
+STIFFEST = {"hertz": 1.5, "harmonic": 2.5}
+"""Last edge of counted bins at k_T = 0, by normal law."""
+
+
 def bin_edges(kappa: float, lowest: float, highest: float, fineness: float = 1.0) -> np.ndarray:
     """Edges of A's bins over the range of the data.
 
@@ -40,6 +50,20 @@ def bin_edges(kappa: float, lowest: float, highest: float, fineness: float = 1.0
     if start < stop:
         edges = _redivided(edges, start, stop, fineness * ROTATIONAL_DIVISIONS)
     return edges
+
+
+def fixed_edges(kappa: float, normal: str, fineness: float) -> np.ndarray:
+    """A's bins over a range that depends on the point alone, for spectra that are only counted.
+
+    From 0.01 omega_R, at most 1e-3 and at least the lowest safe edge 1e-7, to beyond the stiffest
+    mode of usual packings: 1.5 (1 + kappa)^(1/2) with Hertzian, 2.5 (1 + kappa)^(1/2) with harmonic
+    contacts. Modes outside are counted as such.
+
+    Returns:
+        (B + 1,) 1/t_0, ascending.
+    """
+    lowest = np.clip(LOWEST * np.sqrt(kappa), SAFE, 1e-3) if kappa > 0.0 else 1e-3
+    return bin_edges(kappa, lowest, STIFFEST[normal] * np.sqrt(1.0 + kappa), fineness)
 
 
 def _redivided(edges: np.ndarray, start: float, stop: float, divisions: float) -> np.ndarray:

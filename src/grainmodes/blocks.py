@@ -10,12 +10,9 @@ from __future__ import annotations
 
 from dataclasses import asdict
 
-import numpy as np
-
 from grainmodes.dataset import Block, BlockError
 from grainmodes.forces import largest, net_force
 from grainmodes.kernels.laws import interaction
-from grainmodes.modes import mode_sum
 from grainmodes.packing import find_contacts
 from grainmodes.parameters import Compression, ContactLaw, Rattlers, StepStrain
 from grainmodes.protocols.compression import advanced, balanced, placed
@@ -30,7 +27,6 @@ from grainmodes.samples import (
     packed,
     trajectory_of,
 )
-from grainmodes.spectrum import NO_MODES, spectrum
 
 
 def compress_block(
@@ -95,11 +91,11 @@ def rigidity_block(packings: Block, law: ContactLaw, rattler: Rattlers) -> Block
         row = {"jammed": jammed, "converged": True, "max_force": force[0], "max_torque": force[1]}
         if not jammed:
             return row | dict.fromkeys([*_moduli_names(""), *_moduli_names("_loaded")], 0.0)
-        moduli = rigidity(packing, rule, _threshold(rattler, law))
+        moduli = rigidity(packing, rule, rattler_threshold(rattler, law))
         return row | _moduli("", moduli.unloaded) | _moduli("_loaded", moduli.loaded)
 
     config = {"law": asdict(law), "rattlers": asdict(rattler)}
-    return _response(packings, "rigidity", config, law, sample)
+    return response_block(packings, "rigidity", config, law, sample)
 
 
 def step_strain_block(packings: Block, law: ContactLaw, step: StepStrain) -> Block:
@@ -129,48 +125,10 @@ def step_strain_block(packings: Block, law: ContactLaw, step: StepStrain) -> Blo
         }
 
     config = {"law": asdict(law), "step_strain": asdict(step)}
-    return _response(packings, "step_strain", config, law, sample)
+    return response_block(packings, "step_strain", config, law, sample)
 
 
-def spectrum_block(packings: Block, law: ContactLaw, rattler: Rattlers, kind: str) -> Block:
-    """Eigenvalues of every packing; with kind = "modes" also ψ^R, p and the residual."""
-    rule = interaction(law)
-
-    def sample(number: int) -> dict[str, object]:
-        packing, jammed = jammed_packing(packings, number, rule)
-        columns = packing.n * (3 if law.frictional else 2)
-        threshold = _threshold(rattler, law)
-        result = spectrum(packing, rule, threshold, modes=kind == "modes") if jammed else NO_MODES
-        row = _eigenvalues(result.eigenvalue, columns)
-        if kind != "modes":
-            return row
-        return row | {
-            "g_mode_sum": _mode_sum(packing, rule, result, threshold) if jammed else 0.0,
-            "psi_rotational": _padded(result.psi_rotational, columns),
-            "participation_ratio": _padded(result.participation_ratio, columns),
-            "residual": result.residual,
-        }
-
-    config = {"law": asdict(law), "rattlers": asdict(rattler), "spectrum": kind}
-    return _response(packings, "spectrum", config, law, sample)
-
-
-def _eigenvalues(values: np.ndarray, columns: int) -> dict[str, object]:
-    """Eigenvalues of a row; the imaginary parts only where J is not symmetric."""
-    row = {"eigenvalue": _padded(values.real, columns), "mode_count": len(values)}
-    if np.iscomplexobj(values):
-        row["eigenvalue_imaginary"] = _padded(values.imag, columns)
-    return row | {"converged": True}
-
-
-def _mode_sum(packing, rule, result, threshold: int) -> float:
-    """g from the modes; not defined for a J that is not symmetric."""
-    if packing.history is not None:
-        return np.nan
-    return mode_sum(packing, rule, result, threshold).g
-
-
-def _response(packings: Block, stage: str, config: dict, law: ContactLaw, sample) -> Block:
+def response_block(packings: Block, stage: str, config: dict, law: ContactLaw, sample) -> Block:
     """The block of an observable of `packings`, which carries their parameters along."""
     absent = [name for name in ("n", "phi") if name not in packings.attributes]
     if absent:
@@ -189,13 +147,9 @@ def _normal(name: str):
     return interaction(ContactLaw(normal=name)).normal
 
 
-def _threshold(rattler: Rattlers, law: ContactLaw) -> int:
+def rattler_threshold(rattler: Rattlers, law: ContactLaw) -> int:
     """Z_Th; without friction a grain with two contacts is a rattler whatever is asked."""
     return rattler.threshold if law.frictional else max(rattler.threshold, 2)
-
-
-def _padded(values: np.ndarray, length: int) -> np.ndarray:
-    return np.concatenate([values, np.full(length - len(values), np.nan)])
 
 
 def _moduli_names(suffix: str) -> tuple[str, str, str]:

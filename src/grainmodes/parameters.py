@@ -78,22 +78,6 @@ class Rattlers:
 
 @dataclass(frozen=True)
 class SpectrumChoices:
-    """How a spectrum is computed, and into which bins it is counted.
-
-    `fineness` is a factor on the numbers 500 and 100 of A's linear bins. The participation ratio
-    of a bin comes from a sample of `modes_per_bin` eigenvectors; where ψ^R is counted, each bin is
-    passed in `substeps` steps.
-    """
-
-    method: str = "auto"
-    factorisation: str = "auto"
-    fineness: float = 0.2
-    modes_per_bin: int = 60
-    substeps: int = 2
-
-
-@dataclass(frozen=True)
-class SpectrumChoices:
     """How a spectrum is computed; "auto" takes the cheapest method that delivers what is asked.
 
     `fineness` is a factor on the numbers of A's linear bins. Of a bin with more modes than

@@ -6,6 +6,7 @@ from grainmodes import blocks
 from grainmodes.dataset import Block
 from grainmodes.ensemble.point import merge_blocks
 from grainmodes.parameters import ContactLaw, Protocol, checkpoints_up_to
+from grainmodes.spectrum_blocks import spectrum_block
 
 
 def point_block(
@@ -14,7 +15,7 @@ def point_block(
     """Every observable of the point (n, φ, k_T) for some seeds.
 
     The packings go through the same checkpoints as in a study, so the numbers are the same.
-    `spectrum` is "none", "eigenvalues" or "modes".
+    `spectrum` is one of `parameters.SPECTRA`.
     """
     start = None
     for checkpoint in checkpoints_up_to(phi):
@@ -26,5 +27,7 @@ def point_block(
         "step_strain": blocks.step_strain_block(packings, law, protocol.step_strain),
     }
     if spectrum != "none":
-        parts["spectrum"] = blocks.spectrum_block(packings, law, protocol.rattlers, spectrum)
+        parts["spectrum"] = spectrum_block(
+            packings, law, protocol.rattlers, spectrum, protocol.spectrum
+        )
     return merge_blocks(parts)

@@ -91,15 +91,22 @@ def _step_strain(commands) -> None:
 
 def _spectrum(commands) -> None:
     sentence = "Eigenvalues of the Jacobian of packings, and what is measured on eigenvectors."
-    _response(commands, "spectrum", "stages:spectrum", sentence)
+    command = _response(commands, "spectrum", "stages:spectrum", sentence)
+    command.add_argument(
+        "--variant",
+        choices=("backbone", "rattlers", "hessian"),
+        default="backbone",
+        help="J without its rattlers, J with them, or the effective Hessian",
+    )
 
 
-def _response(commands, name: str, run: str, sentence: str) -> None:
+def _response(commands, name: str, run: str, sentence: str) -> argparse.ArgumentParser:
     command = _command(commands, name, run, sentence)
     command.add_argument("packings", type=Path, help="file of `grainmodes pack`")
     _kt(command)
     _settings(command)
     _output(command)
+    return command
 
 
 def _point(commands) -> None:

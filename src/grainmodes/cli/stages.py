@@ -71,15 +71,23 @@ def step_strain(arguments: Namespace) -> None:
 
 
 def spectrum(arguments: Namespace) -> None:
-    """Packings → eigenvalues."""
+    """Packings → their spectra."""
+    from grainmodes.spectrum_blocks import hessian_block, rattlers_block, spectrum_block
+
     scene = _scene(arguments.settings, kt=arguments.kt)
     law, kind = scene.law_at(arguments.kt), scene.grids[0].observables.spectrum
     if kind == "none":
         raise ConfigurationError(
             "observables.spectrum = 'none': allowed here are counts, bands, eigenvalues and modes"
         )
+    rattlers, choices = scene.protocol.rattlers, scene.protocol.spectrum
+    make = {
+        "backbone": lambda of: spectrum_block(of, law, rattlers, kind, choices),
+        "rattlers": lambda of: rattlers_block(of, law, kind, choices),
+        "hessian": lambda of: hessian_block(of, law, rattlers, choices),
+    }
     with _opened(arguments.packings, "packings") as packings:
-        block = blocks.spectrum_block(packings, law, scene.protocol.rattlers, kind)
+        block = make[arguments.variant](packings)
     write_block(arguments.output, block)
 
 

@@ -1,4 +1,4 @@
-"""All points of a study in one file with dimensions (n, phi, kt, seed, mode).
+"""All points of a study in one file: dimensions n, phi, kt, seed, then mode, or edge, bin, strain.
 
 Points are written one after the other, so the memory needed is that of one point whatever the size
 of the study; a spectrum is one chunk. What a point lacks, or a point that the grid lacks, is NaN;
@@ -26,6 +26,7 @@ class Layout(NamedTuple):
     """What the file has room for: values of the coordinates, and names of the variables."""
 
     coordinates: dict[str, np.ndarray]
+    lengths: dict[str, int]
     names: list[str]
     code_version: str
 
@@ -78,19 +79,22 @@ def _coordinates(block: Block) -> tuple[int, float, float]:
 
 
 def _layout(paths: list[Path]) -> Layout:
-    grid, seeds, names, versions, modes = set(), set(), set(), set(), 0
+    grid, seeds, names, versions = set(), set(), set(), set()
+    lengths = {"mode": 0}
     for _, block in _points(paths):
         grid.add(_coordinates(block))
         seeds.update(block.variables["seed"].tolist())
         names.update(name for name in block.variables if name != "seed")
         versions.add(str(block.attributes["code_version"]))
-        modes = max(modes, *(a.shape[1] for a in block.variables.values() if a.ndim == 2), 0)
+        for name, array in block.variables.items():
+            for dimension in VARIABLES[name].dimensions[1:]:
+                lengths[dimension] = max(lengths.get(dimension, 0), array.shape[1])
     coordinates = {
         name: np.unique([point[axis] for point in grid]) for axis, name in enumerate(GRID)
     }
-    coordinates |= {"seed": np.array(sorted(seeds)), "mode": np.arange(modes)}
+    coordinates |= {"seed": np.array(sorted(seeds)), "mode": np.arange(lengths.pop("mode"))}
     in_table_order = [name for name in VARIABLES if name in names]
-    return Layout(coordinates, in_table_order, ", ".join(sorted(versions)))
+    return Layout(coordinates, lengths, in_table_order, ", ".join(sorted(versions)))
 
 
 def _define(file: netCDF4.Dataset, layout: Layout) -> None:
@@ -98,6 +102,8 @@ def _define(file: netCDF4.Dataset, layout: Layout) -> None:
         file.createDimension(name, len(values))
         _describe(file.createVariable(name, VARIABLES[name].dtype, (name,)), name)
         file[name][...] = values
+    for name, length in sorted(layout.lengths.items()):
+        file.createDimension(name, length)
     for name in layout.names:
         row = VARIABLES[name]
         variable = file.createVariable(
@@ -116,9 +122,12 @@ def _describe(variable: netCDF4.Variable, name: str) -> None:
 
 
 def _storage(layout: Layout, dimensions: tuple[str, ...]) -> dict[str, object]:
-    if "mode" not in dimensions:
+    if len(dimensions) == 1:
         return {}
-    chunk = (1, 1, 1, 1, len(layout.coordinates["mode"]))
+    length = (
+        len(layout.coordinates["mode"]) if "mode" in dimensions else layout.lengths[dimensions[1]]
+    )
+    chunk = (1, 1, 1, 1, length)
     return {"chunksizes": chunk, "zlib": True, "complevel": 1, "shuffle": True}
 
 
