@@ -6,6 +6,7 @@ import pytest
 import naive
 import printed
 from grainmodes.forces import stress
+from grainmodes.hessian import effective_hessian
 from grainmodes.jacobian import jacobian, stiffness_of
 from grainmodes.kernels.fire import Pace, advance
 from grainmodes.kernels.laws import interaction
@@ -230,6 +231,23 @@ def test_imaginary_part_of_an_eigenpair():
     np.testing.assert_allclose(matrix @ mode.imag, right, atol=1e-13)
     wrong = value.imag * mode.real + value.real * mode.real
     assert np.abs(matrix @ mode.imag - wrong).max() > 0.01
+
+
+@pytest.mark.parametrize(("name", "ratio"), [(HERTZ, 2.397), (HARMONIC, 1.0)])
+def test_constant_stiffnesses_of_the_effective_hessian_are_those_of_harmonic_grains(name, ratio):
+    """A (H2) with k_N and k_T to the letter makes Hertzian grains too stiff; with slopes D = D_H."""
+    packing, law = reference(name)[1], elastic(name, KT)
+    contacts = find_contacts(packing)
+    right, tangent, constant = (
+        np.sqrt(np.linalg.eigvalsh(matrix.toarray())[2:])
+        for matrix in (
+            jacobian(packing, contacts, law),
+            effective_hessian(packing, contacts, law),
+            effective_hessian(packing, contacts, law, "printed"),
+        )
+    )
+    np.testing.assert_allclose(tangent, right, rtol=1e-11)
+    assert constant[-1] / right[-1] == pytest.approx(ratio, abs=1e-3)
 
 
 def test_mixing_of_fire_in_paper_a_steers_away_from_the_force():
