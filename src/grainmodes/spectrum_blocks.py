@@ -7,7 +7,7 @@
 | eigenvalues | every eigenvalue                                                   |
 | modes       | every eigenvalue with ψ^R and p, and g as a sum over the modes     |
 
-The bins depend on the point alone (`binning.fixed_edges`), so that samples can be added up. Each row
+The bins depend on the point alone (`binning.fixed_edges`): samples can be added up. Each row
 says by which method it was computed, and with which factorisation.
 """
 
@@ -86,7 +86,7 @@ def rattlers_block(packings: Block, law: ContactLaw, kind: str, choices: Spectru
 def hessian_block(
     packings: Block, law: ContactLaw, rattlers: Rattlers, choices: SpectrumChoices
 ) -> Block:
-    """Modes in bins of the effective Hessian, with tangent and with printed stiffnesses: A, (H4)."""
+    """Modes of the effective Hessian in bins, tangent stiffnesses and printed ones: A, (H4)."""
     rule, threshold = interaction(law), rattler_threshold(rattlers, law)
     edges = fixed_edges(law.kt, law.normal, choices.fineness)
 
