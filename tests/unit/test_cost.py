@@ -4,15 +4,27 @@ import re
 from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple
 
+import numpy as np
 import pytest
 import yaml
 
+from benchmarks import growth
 from grainmodes.cli import main
 from grainmodes.configuration import read_scene, scene_of
 from grainmodes.cost import COSTS, Law, estimate, read_table, wall_seconds
 from grainmodes.cost.work import work
 from grainmodes.parameters import Compression, SpectrumChoices
+
+
+class Timed(NamedTuple):
+    """What a measurement returns."""
+
+    seconds: float
+    units: float
+    megabytes: float
+
 
 CONFIG = Path(__file__).parents[2] / "config"
 TABLE = read_table()
@@ -114,6 +126,38 @@ def test_two_grids_cost_their_sum():
     assert together > 2 * total(scene_with(one))
 
 
+def test_several_n_in_a_grid_cost_as_much_as_in_grids_of_their_own():
+    asked = observing(spectrum="modes", fields=True)
+    whole = scene_with({"n": [64, 128]} | asked)
+    split = scene_with({"n": [64]} | asked, {"n": [128]} | asked)
+    assert total(whole) == pytest.approx(total(split))
+    assert jobs(whole) == jobs(split)
+
+
+def test_fields_are_those_of_one_sample():
+    items = estimate(scene_with({"n": [1024]} | observing(fields=True)), FREE)
+    (fields,) = [item for item in items if item.stage == "fields"]
+    assert fields.samples == fields.jobs == 4
+    assert fields.seconds == pytest.approx(4 * TABLE.laws["fields"].seconds)
+
+
+def test_every_job_has_its_start_up():
+    scene = scene_with({})
+    dear = replace(TABLE, job=TABLE.job | {"seconds": 100.0})
+    started = sum(item.seconds for item in estimate(scene, dear)) - total(scene)
+    assert started == pytest.approx(100.0 * sum(jobs(scene).values()))
+
+
+def test_a_work_is_known_as_far_as_its_least_known_law():
+    laws = {"count_superlu": 4096, "window_superlu": 1024}
+    known = {name: replace(TABLE.laws[name], up_to=n) for name, n in laws.items()}
+    table = replace(TABLE, laws=TABLE.laws | known)
+    choices = {"spectrum": {"factorisation": "superlu"}}
+    scene = scene_with({"n": [4096]} | observing(spectrum="bands"), protocol=choices)
+    (bands,) = [item for item in estimate(scene, table) if item.stage == "spectrum"]
+    assert bands.up_to == 1024
+
+
 def test_grids_of_one_n_share_their_packings():
     whole = scene_with({"kt": [1e-4, 1e-2, 1.0]})
     split = scene_with({"kt": [1e-4]}, {"kt": [1e-2, 1.0]})
@@ -185,10 +229,64 @@ def test_wall_time_is_shared_work_or_the_longest_chain():
     assert chain < work_of_all
 
 
+def test_the_longest_chain_ends_in_the_longest_response():
+    grids = [{"n": [64]}, {"n": [2048], "seeds": 1} | observing(step_strain=True)]
+    items = estimate(scene_with(*grids, block=1), FREE)
+    large = [item for item in items if item.n == 2048]
+    chain = {item.stage: item.chain for item in large}
+    assert wall_seconds(items, 1000) == pytest.approx(
+        chain["compress"] + chain["pack"] + max(chain["rigidity"], chain["step_strain"])
+    )
+    assert chain["rigidity"] != chain["step_strain"]
+
+
 def test_memory_is_that_of_the_largest_work():
     scene = scene_with({"n": [1024]} | observing(spectrum="modes"))
     peaks = {item.stage: item.megabytes for item in estimate(scene, TABLE)}
     assert peaks["spectrum"] == TABLE.job["megabytes"] + TABLE.laws["dense_modes"].megabytes
+
+
+def test_a_fit_finds_the_power_of_the_largest_sizes():
+    sizes = [64, 256, 512, 1024, 2048]
+    fit = growth.fitted(sizes, [1e3, *(0.3 * (n / 1024) ** 1.4 for n in sizes[1:])])
+    assert fit[:2] == pytest.approx((0.3, 1.4))
+    assert max(fit[2:]) < 1e-9
+
+
+def test_a_fit_states_its_error():
+    draws = np.random.default_rng(1)
+    sizes = [512, 1024, 2048, 4096]
+    exact = np.array([0.3 * (n / 1024) ** 1.4 for n in sizes])
+    fits = [growth.fitted(sizes, exact * np.exp(draws.normal(0, 0.1, 4))) for _ in range(400)]
+    spread = np.std([fit.p for fit in fits])
+    assert np.sqrt(np.mean([fit.p_error**2 for fit in fits])) == pytest.approx(spread, rel=0.15)
+    spread = np.std([np.log(fit.c) for fit in fits])
+    assert np.sqrt(np.mean([fit.c_error**2 for fit in fits])) == pytest.approx(spread, rel=0.15)
+    assert np.isnan(growth.fitted(sizes[:2], exact[:2]).p_error)
+
+
+def test_growth_writes_a_table_and_stops_in_time(monkeypatch, tmp_path):
+    asked = []
+
+    def apart(function, *arguments):
+        if function != "timed":
+            return {"bare": 150.0, "start_up": 0.5, "climb": [3.0, 1.0] + [0.0] * 9}[function]
+        work, n, _ = arguments
+        asked.append((work, n))
+        units = 4.0 if work == "count_superlu" else 1.0
+        return Timed(2.0 * (n / 1024) ** 3, units, 150.0 + n / 100)
+
+    monkeypatch.setattr(growth, "apart", apart)
+    monkeypatch.setattr(growth, "find_spec", lambda name: None)
+    growth.main(tmp_path / "costs.yaml")
+    table = read_table(tmp_path / "costs.yaml")
+    assert table.laws["rigidity"] == Law(2.0, 3.0, 10.2, 1.0, 2048)
+    assert table.laws["count_superlu"].seconds == 0.5
+    assert table.laws["count_pardiso"] == TABLE.laws["count_pardiso"]
+    assert max(n for _, n in asked) == 2048
+    assert table.job == {"seconds": 0.5, "megabytes": 150}
+    assert table.share(0.80) == 0.75
+    assert table.disk == TABLE.disk
 
 
 def said(capsys, *words: str) -> str:
