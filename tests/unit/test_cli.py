@@ -54,7 +54,7 @@ def test_help_names_every_command(capsys):
         main(["--help"])
     assert stop.value.code == 0
     text = capsys.readouterr().out
-    for name in ("compress", "pack", "rigidity", "step-strain", "spectrum", "gather"):
+    for name in ("compress", "pack", "rigidity", "step-strain", "spectrum", "gather", "cost"):
         assert f"    {name}" in text
 
 

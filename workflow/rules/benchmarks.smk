@@ -8,3 +8,12 @@ rule benchmarks:
         "Measure the speeds."
     shell:
         "python {input.scripts} | tee results/benchmarks.txt"
+
+
+rule growth:
+    input:
+        scripts="tests/benchmarks/growth.py",
+    message:
+        "Measure how costs grow with N, into results/costs.yaml."
+    shell:
+        "python {input.scripts} results/costs.yaml"

@@ -41,7 +41,7 @@ def parser() -> argparse.ArgumentParser:
     commands = top.add_subparsers(dest="name", metavar="COMMAND", required=True)
     for define in (_compress, _pack, _rigidity, _step_strain, _spectrum, _point):
         define(commands)
-    for define in (_gather, _ensemble, _figure, _show):
+    for define in (_gather, _ensemble, _figure, _show, _cost):
         define(commands)
     return top
 
@@ -157,6 +157,16 @@ def _show(commands) -> None:
     sentence = "Say what a file holds: names, dimensions, units, provenance, failures."
     command = _command(commands, "show", "show:show", sentence)
     command.add_argument("file", type=Path, help="any netCDF file of a study")
+
+
+def _cost(commands) -> None:
+    sentence = "Say what a scene will cost before it runs: CPU hours, memory, disk."
+    command = _command(commands, "cost", "scenes:cost", sentence)
+    command.add_argument("config", type=Path, help="a scene, as config/default.yaml")
+    command.add_argument("--cores", type=int, default=2, help="jobs at once; 2 if absent")
+    command.add_argument(
+        "--costs", type=Path, metavar="FILE", help="costs on another machine: `snakemake growth`"
+    )
 
 
 def _n(command) -> None:

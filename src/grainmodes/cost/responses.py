@@ -1,0 +1,65 @@
+"""The cost of what grids ask of their packings: one item per stage, grid and n."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from grainmodes.configuration import Grid, Scene
+from grainmodes.cost.item import Item, Job
+from grainmodes.cost.table import Table
+from grainmodes.cost.work import degrees_of_freedom, work
+from grainmodes.parameters import Point, parse_seeds, seed_blocks
+
+NUMBERS = {"counts": 0, "bands": 0, "eigenvalues": 1, "modes": 3}
+"""Numbers per mode that a kind of spectrum stores."""
+
+COPIES = 3
+"""A number of a sample stands in its block, in its point and in the ensemble."""
+
+
+def responses(scene: Scene, table: Table, place: int) -> Iterator[Item]:
+    """The stages of the grid at this place of the scene, fields included."""
+    grid = scene.grids[place]
+    sizes = [len(parse_seeds(block)) for block in seed_blocks(grid.seeds, scene.block)]
+    for n in grid.n:
+        for stage, points in _stages(grid, n).items():
+            yield _response(scene, table, place, stage, points, sizes)
+        if grid.observables.fields:
+            yield _response(scene, table, place, "fields", _points(grid, n), [1])
+
+
+def _points(grid: Grid, n: int) -> list[Point]:
+    return [point for point in grid.points if point.n == n]
+
+
+def _stages(grid: Grid, n: int) -> dict[str, list[Point]]:
+    """Stage → the points of one n that ask for it."""
+    found: dict[str, list[Point]] = {}
+    for point in _points(grid, n):
+        for stage in grid.stages(point.kt):
+            found.setdefault(stage, []).append(point)
+    return found
+
+
+def _response(
+    scene: Scene, table: Table, place: int, stage: str, points: list[Point], sizes: list[int]
+) -> Item:
+    """A stage at some points, each in blocks of so many samples."""
+    kind, choices = scene.grids[place].observables.spectrum, scene.protocol.spectrum
+    used, chains = set(), []
+    for point in points:
+        units = work(stage, kind, point.n, point.kt, choices, table)
+        seconds = sum(times * table.laws[name].seconds_at(point.n) for name, times in units.items())
+        disk = _stored(stage, kind, point, table)
+        chains += [[Job(size, size * seconds, size * disk)] for size in sizes]
+        used |= set(units)
+    laws = [table.laws[name] for name in sorted(used)]
+    return Item.of(stage, place, points[0].n, chains, laws, table)
+
+
+def _stored(stage: str, kind: str, point: Point, table: Table) -> float:
+    """Bytes per sample that grow with N."""
+    if stage not in ("spectrum", "spectrum_rattlers"):
+        return 0.0
+    numbers = COPIES * NUMBERS[kind] * degrees_of_freedom(point.n, point.kt)
+    return numbers * table.disk["number"]

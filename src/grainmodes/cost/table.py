@@ -1,0 +1,85 @@
+"""The table of measured costs, and its growth laws.
+
+| symbol | name              | meaning                                       |
+| ------ | ----------------- | --------------------------------------------- |
+| c      | `seconds`         | CPU seconds of one unit of work at N = 1024   |
+| p      | `exponent`        | its growth, c (N / 1024)^p                    |
+|        | `megabytes`       | memory above that of a bare job at N = 1024   |
+|        | `memory_exponent` | its growth                                    |
+|        | `up_to`           | largest N measured; 0 for a guess             |
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import yaml
+
+from grainmodes.parameters import Compression
+
+COSTS = Path(__file__).with_name("costs.yaml")
+"""The table that comes with the package."""
+
+REFERENCE = 1024
+"""N at which costs are given."""
+
+
+@dataclass(frozen=True)
+class Law:
+    """The cost of one unit of work as a power of N."""
+
+    seconds: float
+    exponent: float
+    megabytes: float
+    memory_exponent: float
+    up_to: int
+
+    def seconds_at(self, n: int) -> float:
+        """CPU seconds of one thread."""
+        return self.seconds * (n / REFERENCE) ** self.exponent
+
+    def megabytes_at(self, n: int) -> float:
+        """Memory above that of a job that does nothing, in MB."""
+        return self.megabytes * (n / REFERENCE) ** self.memory_exponent
+
+
+@dataclass(frozen=True)
+class Table:
+    """Everything in `costs.yaml`."""
+
+    machine: str
+    laws: dict[str, Law]
+    climb: dict[float, float]
+    compression: dict[str, float]
+    dense_up_to: dict[str, int]
+    job: dict[str, float]
+    disk: dict[str, float]
+
+    def share(self, phi: float) -> float:
+        """Part of a trajectory to φ = 0.90 that lies below φ, linear between rows of `climb`."""
+        pairs = list(pairwise(sorted(self.climb.items())))
+        (low, start), (high, stop) = next((p for p in pairs if phi <= p[1][0]), pairs[-1])
+        return start + (stop - start) * (phi - low) / (high - low)
+
+    def slowdown(self, compression: Compression) -> float:
+        """Factor on the time of a trajectory for other choices than the default ones."""
+        steps = compression.phi_step / self.compression["phi_step"]
+        return self.compression[compression.relaxation] * steps ** self.compression["step_exponent"]
+
+
+def read_table(path: str | Path = COSTS) -> Table:
+    """The table of a file.
+
+    Raises:
+        ValueError: the file is no such table.
+        OSError: it cannot be read.
+    """
+    try:
+        content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+        laws = {name: Law(**row) for name, row in content["laws"].items()}
+        return Table(**content | {"laws": laws})
+    except (yaml.YAMLError, TypeError, KeyError, AttributeError) as error:
+        reason = " ".join(str(error).split())
+        raise ValueError(f"{path}: not a table of costs ({reason}); see {COSTS}") from error

@@ -1,0 +1,82 @@
+"""Which work a stage does on one sample: the name of a law → how many units of it.
+
+Spectra follow the rules by which the stages choose a method: LAPACK up to a size; beyond, counts
+at the edges of bins, or windows of eigenpairs. ψ^R of a bin is counted in `substeps` cells: each at
+its end on the diagonal and at two corners, and pairs of cells once more at two, four counts a cell.
+p takes the eigenpairs of a bin, at most `modes_per_bin`.
+"""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+
+from grainmodes.binning import (
+    HIGHEST_BINS,
+    HIGHEST_DIVISIONS,
+    LOGARITHMIC_BINS,
+    ROTATIONAL_DIVISIONS,
+)
+from grainmodes.cost.table import Table
+from grainmodes.parameters import SpectrumChoices
+
+BINNED = ("counts", "bands")
+"""Kinds of spectra that need no eigenvalue."""
+
+PARDISO_FROM = 3000
+"""Degrees of freedom from which `factorisation: auto` takes PARDISO where it is installed."""
+
+
+def work(
+    stage: str, kind: str, n: int, kt: float, choices: SpectrumChoices, table: Table
+) -> dict[str, float]:
+    """Units of work of a stage on one sample of n grains.
+
+    Args:
+        stage: one of the responses, or "fields".
+        kind: of the spectrum at this point.
+        kt: k_T / k_N; at 0 there is no rotation and no band of it.
+    """
+    if stage == "spectrum_hessian":
+        once = _spectrum("counts", n, kt, choices, table)
+        return {name: 2 * units for name, units in once.items()}
+    if stage.startswith("spectrum"):
+        return _spectrum(kind, n, kt, choices, table)
+    return {stage: 1}
+
+
+def degrees_of_freedom(n: int, kt: float) -> int:
+    """Number of modes of n grains, rattlers included."""
+    return n * (3 if kt > 0.0 else 2)
+
+
+def bins(kt: float, fineness: float) -> float:
+    """About how many bins A's recipe makes."""
+    rotational = ROTATIONAL_DIVISIONS if kt > 0.0 else 0
+    return LOGARITHMIC_BINS - HIGHEST_BINS + fineness * (HIGHEST_DIVISIONS + rotational)
+
+
+def _spectrum(kind: str, n: int, kt: float, choices: SpectrumChoices, table: Table):
+    modes, edges = degrees_of_freedom(n, kt), bins(kt, choices.fineness) + 1
+    if _dense(kind, modes, choices.method, table):
+        return {"dense_values" if kind in ("counts", "eigenvalues") else "dense_modes": 1}
+    backend = _backend(choices.factorisation, modes)
+    if kind == "counts":
+        return {f"count_{backend}": edges}
+    if kind == "bands":
+        return {
+            f"count_{backend}": edges * (4 * choices.substeps if kt > 0.0 else 1),
+            f"window_{backend}": min(modes, edges * choices.modes_per_bin),
+        }
+    return {f"window_{backend}": modes}
+
+
+def _dense(kind: str, modes: int, method: str, table: Table) -> bool:
+    named = method == "windows" or (method == "counting" and kind in BINNED)
+    limit = table.dense_up_to["bins" if kind in BINNED else "all"]
+    return method == "dense" or (not named and modes <= limit)
+
+
+def _backend(asked: str, modes: int) -> str:
+    if asked != "auto":
+        return asked
+    return "pardiso" if modes >= PARDISO_FROM and find_spec("pypardiso") else "superlu"
