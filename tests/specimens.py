@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -10,9 +12,11 @@ import xarray as xr
 from hypothesis import HealthCheck, settings
 
 import naive
-from grainmodes.kernels.laws import Interaction, interaction
+from grainmodes.kernels.laws import Hertz, Interaction, interaction
 from grainmodes.packing import Contacts, History, Packing, find_contacts
-from grainmodes.parameters import ContactLaw
+from grainmodes.parameters import Compression, ContactLaw
+from grainmodes.protocols.compression import advanced, balanced, placed
+from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
 
 DATA = Path(__file__).parent / "data"
 KTS = (1e-8, 1e-4, 1e-2, 1.0, 2.0, 10.0)
@@ -131,3 +135,18 @@ def pairs_of(packing: Packing, skin: float = 0.0) -> list[naive.Pair]:
 def contacts_and_pairs(packing: Packing) -> tuple[Contacts, list[naive.Pair]]:
     """Contacts as the package sees them, and as the slow twin does."""
     return find_contacts(packing), pairs_of(packing)
+
+
+BACKENDS = ["superlu", *(["pardiso"] if find_spec("pypardiso") else [])]
+"""The factorisations of this environment."""
+
+
+@cache
+def quenched(n: int, phi: float, seed: int = 0) -> Packing:
+    """A packing in balance straight from random placement; near jamming it is compressed to φ."""
+    law, protocol = Hertz(1.0), Compression(phi_step=1e-3)
+    start = placed(n, seed, law, protocol)
+    if phi < 0.87:
+        return balanced(advanced(start, phi, law, protocol), phi, law, protocol).packing
+    loose = relax_loosely(start.packing.at(phi), law, 1e-7, 0.0, 100_000).packing
+    return relax_fast(loose, law, 1e-14, 1_000_000).packing

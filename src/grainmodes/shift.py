@@ -30,13 +30,16 @@ class SymmetricShift:
     Attributes:
         count: number of eigenvalues of J below σ.
         name: the factorisation at work.
+        null: known zero modes of J, (M, Z), orthonormal.
 
     Args:
         matrix: J, (M, M) sparse, symmetric; each row may be empty.
         backend: see `factorisation`.
     """
 
-    def __init__(self, matrix: sparse.csc_array, backend: str = "auto"):
+    def __init__(
+        self, matrix: sparse.csc_array, backend: str = "auto", null: np.ndarray | None = None
+    ):
         self._matrix = _with_diagonal(matrix)
         self._row = self._matrix.indices
         self._column = np.repeat(np.arange(self.size), np.diff(self._matrix.indptr))
@@ -44,6 +47,7 @@ class SymmetricShift:
         self._stiffness = np.abs(self._matrix.data[self._on_diagonal])
         self._factors = factorisation(self._matrix, backend)
         self.name = self._factors.name
+        self.null = np.zeros((self.size, 0)) if null is None else null
         self.count = 0
 
     @property

@@ -18,7 +18,6 @@ import numpy as np
 from scipy.special import stdtrit
 
 from grainmodes.parameters import SpectrumChoices
-from grainmodes.shift import SymmetricShift
 from grainmodes.spectrum import dense, windows
 from grainmodes.spectrum.counting import Sums, counts, rotational_sums
 from grainmodes.spectrum.measures import participation_ratio, rotational_fraction
@@ -27,11 +26,11 @@ from grainmodes.spectrum.problem import Problem
 DENSE_UP_TO = 2000
 """Degrees of freedom up to which LAPACK's whole spectrum is cheaper than counts."""
 
-GROUPS = 6
+GROUPS = 8
 """Shifts in a bin around which modes are sampled."""
 
-ONE_SIGMA = 0.8413447
-"""Part of a normal distribution below one standard deviation."""
+TWO_SIGMA = 0.9772499
+"""Part of a normal distribution below two standard deviations."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +70,7 @@ def band_averages(
     small = choices.method == "auto" and problem.size <= DENSE_UP_TO
     if small or choices.method == "dense":
         return _dense(problem, edges, averages)
-    shift = SymmetricShift(problem.matrix, choices.factorisation)
+    shift = problem.shift(choices.factorisation)
     below = counts(shift, edges)
     count = np.diff(below)
     given = {"method": "counting", "factorisation": shift.name}
@@ -105,31 +104,35 @@ def _averages(shift, problem: Problem, edges, below, choices: SpectrumChoices) -
     psi = _mean(rotational_sums(shift, below, edges, problem.k, choices.substeps), count)
     p = np.full((2, len(count)), np.nan)
     for number in np.flatnonzero(count):
-        ends = edges[number : number + 2] ** 2
+        low, high = edges[number : number + 2] ** 2
         if count[number] <= choices.modes_per_bin:
-            window = windows.Window(*ends, int(count[number]))
+            window = windows.Window(low, high, int(count[number]))
             weight = _weight(problem, windows.eigenpairs(shift, window).vectors)
             psi[:, number] = rotational_fraction(weight).mean(), 0.0
             p[:, number] = participation_ratio(weight).mean(), 0.0
         else:
+            ends = (low, below[number]), (high, below[number + 1])
             p[:, number] = _sampled(shift, problem, *ends, choices.modes_per_bin, int(number))
     return _named("psi_rotational", psi) | _named("participation_ratio", p)
 
 
-def _sampled(shift, problem: Problem, low: float, high: float, modes: int, seed: int):
-    """Mean p of a bin, and its standard error, from groups of modes at stratified shifts."""
+def _sampled(shift, problem: Problem, start, stop, modes: int, seed: int) -> tuple[float, float]:
+    """Mean p of a bin, and its standard error, from groups of modes at stratified ranks."""
+    (low, below_low), (high, below_high) = start, stop
     at = (np.arange(GROUPS) + np.random.default_rng(seed).random(GROUPS)) / GROUPS
+    group = max(1, modes // GROUPS)
     means = []
-    for sigma in low + (high - low) * at:
-        found = windows.nearest(shift, sigma, max(1, modes // GROUPS))
+    for rank in below_low + (below_high - below_low) * at:
+        sigma, _ = windows.between(shift, start, stop, rank, slack=0.5 * group)
+        found = windows.nearest(shift, sigma, group)
         inside = (found.values >= low) & (found.values < high)
         if inside.any():
             means.append(participation_ratio(_weight(problem, found.vectors[:, inside])).mean())
     if len(means) < 2:
         return means[0] if means else np.nan, np.inf
-    # Few groups: one standard error of the normal law, as Student's t has it.
+    # Few groups: two errors hold as much of Student's t as two of the normal law.
     spread = np.std(means, ddof=1) / np.sqrt(len(means))
-    return np.mean(means), stdtrit(len(means) - 1, ONE_SIGMA) * spread
+    return np.mean(means), 0.5 * stdtrit(len(means) - 1, TWO_SIGMA) * spread
 
 
 def _mean(sums: Sums, count: np.ndarray) -> np.ndarray:

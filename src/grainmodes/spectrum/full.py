@@ -17,7 +17,6 @@ from functools import partial
 import numpy as np
 
 from grainmodes.parameters import SpectrumChoices
-from grainmodes.shift import SymmetricShift
 from grainmodes.spectrum import dense, windows
 from grainmodes.spectrum.measures import Measured
 from grainmodes.spectrum.problem import Problem
@@ -92,13 +91,13 @@ def _spectrum(measured: Measured, **more) -> Spectrum:
 
 
 def _by_windows(problem: Problem, forces, backend: str, processes: int) -> Spectrum:
-    shift = SymmetricShift(problem.matrix, backend)
+    shift = problem.shift(backend)
     unstable, below = (shift.to(edge).count for edge in (-FLOOR, FLOOR))
     if unstable:
         raise ArithmeticError(f"{unstable} eigenvalues are negative: not a stable packing")
     parts = windows.split(shift, FLOOR, problem.bound)
     measure = partial(Measured.of, problem.matrix, problem.k, forces)
-    found = windows.measured(problem.matrix, shift.name, parts, measure, processes)
+    found = windows.measured(problem, shift.name, parts, measure, processes)
     unknown = np.full(below, np.nan)
     zero_modes = Measured(
         np.zeros(below), unknown, unknown, np.zeros(below), np.zeros((below, forces.shape[1]))

@@ -10,6 +10,7 @@ import scipy.sparse as sparse
 from grainmodes.jacobian import jacobian
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing import Packing, backbone, find_contacts
+from grainmodes.shift import SymmetricShift
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,18 @@ class Problem:
         """A number above every |λ| (Gershgorin); 0 for an empty matrix."""
         rows = np.abs(self.matrix).sum(axis=1)
         return 1.0001 * float(rows.max(initial=0.0))
+
+    @property
+    def translations(self) -> np.ndarray:
+        """The two zero modes of every J, (M, 2), orthonormal."""
+        along = np.zeros((self.size, 2))
+        for axis in range(2):
+            along[axis :: self.k, axis] = np.sqrt(self.k / max(self.size, 1))
+        return along
+
+    def shift(self, backend: str = "auto") -> SymmetricShift:
+        """J − σ for a symmetric J, which knows its translations."""
+        return SymmetricShift(self.matrix, backend, self.translations)
 
 
 def problem(

@@ -10,15 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
-from functools import partial
 from multiprocessing import get_context
 from typing import NamedTuple
 
 import numpy as np
-import scipy.sparse as sparse
 
 from grainmodes.shift import SymmetricShift
 from grainmodes.spectrum.lanczos import Krylov, Pairs
+from grainmodes.spectrum.problem import Problem
 
 WINDOW = 150
 """Modes of a window where the basis of its Krylov space fits into the cache; elsewhere 60."""
@@ -41,6 +40,9 @@ tell apart from those inside; an even density has 2."""
 
 LOOSE = 1.05
 """Ratio of the outermost ends of all windows to the outermost eigenvalues, at most."""
+
+WIDE = 10.0
+"""Largest ratio of the ends of a window: an eigenvalue keeps 1e-16 of the larger one."""
 
 RESOLUTION = 1e-12
 """Relative width below which an interval is not divided further: a degenerate eigenvalue."""
@@ -87,9 +89,11 @@ def _split(shift: SymmetricShift, start, stop, size: int) -> Iterator[Window]:
     if not modes:
         return
     pieces = -(-modes // size)
-    if pieces > 1 and high - low > RESOLUTION * high:
+    if high > WIDE * low:
+        middle = np.sqrt(low * high), shift.to(np.sqrt(low * high)).count
+    elif pieces > 1 and high - low > RESOLUTION * high:
         aim = below_low + modes * (pieces // 2) / pieces
-        middle = _edge(shift, start, stop, aim, SLACK * size)
+        middle = between(shift, start, stop, aim, SLACK * size)
     elif _crowded(shift, low, high, modes):
         middle = 0.5 * (low + high), shift.to(0.5 * (low + high)).count
     else:
@@ -108,8 +112,11 @@ def _crowded(shift: SymmetricShift, low: float, high: float, modes: int) -> bool
     return around > CROWD * modes + CROWD * BLOCK
 
 
-def _edge(shift: SymmetricShift, start, stop, aim: float, slack: float) -> tuple[float, int]:
-    """A shift with about `aim` eigenvalues below it, by interpolation between counts."""
+def between(shift: SymmetricShift, start, stop, aim: float, slack: float) -> tuple[float, int]:
+    """A shift with about `aim` eigenvalues below it, and how many there are.
+
+    `start` and `stop` are shifts with their counts; the next one is interpolated between them.
+    """
     (low, below_low), (high, below_high) = start, stop
     while True:
         part = min(0.9, max(0.1, (aim - below_low) / (below_high - below_low)))
@@ -131,7 +138,7 @@ def eigenpairs(shift: SymmetricShift, window: Window, seed: int = 0) -> Pairs:
     """
     low, high, modes = window
     sigma = 0.5 * (low + high)
-    krylov = Krylov(shift.to(sigma), sigma, BLOCK, int(LARGEST * modes) + 12 * BLOCK, seed)
+    krylov = Krylov(shift.to(sigma), sigma, _block(shift), int(LARGEST * modes) + 12 * BLOCK, seed)
     below = shift.count
     krylov.grow(int(FIRST * modes) + BLOCK)
     while True:
@@ -152,6 +159,11 @@ def eigenpairs(shift: SymmetricShift, window: Window, seed: int = 0) -> Pairs:
     return Pairs(*(np.concatenate(columns, axis=-1) for columns in zip(*parts, strict=True)))
 
 
+def _block(shift: SymmetricShift) -> int:
+    """Vectors of a block: fewer where so many would soon exhaust the space."""
+    return max(2, min(BLOCK, shift.size // 40))
+
+
 def nearest(shift: SymmetricShift, sigma: float, modes: int, seed: int = 0) -> Pairs:
     """The `modes` eigenpairs nearest σ, ascending.
 
@@ -159,7 +171,7 @@ def nearest(shift: SymmetricShift, sigma: float, modes: int, seed: int = 0) -> P
         WindowError: they did not converge.
     """
     largest = int(LARGEST * modes) + 16 * BLOCK
-    krylov = Krylov(shift.to(sigma), sigma, min(BLOCK, max(4, modes // 2)), largest, seed)
+    krylov = Krylov(shift.to(sigma), sigma, _block(shift), largest, seed)
     krylov.grow(int(FIRST * modes) + 2 * BLOCK)
     while True:
         _, pairs = krylov.pairs(-np.inf, np.inf)
@@ -173,7 +185,7 @@ def nearest(shift: SymmetricShift, sigma: float, modes: int, seed: int = 0) -> P
 
 
 def measured(
-    matrix: sparse.csc_array,
+    problem: Problem,
     backend: str,
     windows: list[Window],
     measure: Callable[[np.ndarray, np.ndarray], tuple],
@@ -185,15 +197,11 @@ def measured(
         WindowError: the pairs found in a window are not as many as the counts say.
     """
     if processes == 1:
-        shift = SymmetricShift(matrix, backend)
+        shift = problem.shift(backend)
         return [measure(*eigenpairs(shift, window)) for window in windows]
-    prepare = partial(_prepare, matrix, backend, measure)
-    with ProcessPoolExecutor(processes, get_context("spawn"), _Worker.start, (prepare,)) as pool:
+    given = problem, backend, measure
+    with ProcessPoolExecutor(processes, get_context("spawn"), _Worker.start, given) as pool:
         return list(pool.map(_Worker.run, windows))
-
-
-def _prepare(matrix, backend, measure):
-    return SymmetricShift(matrix, backend), measure
 
 
 class _Worker:
@@ -203,8 +211,8 @@ class _Worker:
     measure: Callable
 
     @classmethod
-    def start(cls, prepare) -> None:
-        cls.shift, cls.measure = prepare()
+    def start(cls, problem: Problem, backend: str, measure) -> None:
+        cls.shift, cls.measure = problem.shift(backend), measure
 
     @classmethod
     def run(cls, window: Window):
