@@ -22,8 +22,11 @@ def mode_sum(
     spectrum: Spectrum,
     threshold: int = 2,
     loaded: bool = False,
+    among: np.ndarray | None = None,
 ) -> Moduli:
     """g of a packing from the modes of its symmetric J without rattlers.
+
+    `among`, (M,) bool, lets only these modes respond; g_A is that of the whole packing.
 
     Raises:
         ValueError: the spectrum is that of a Jacobian that is not symmetric.
@@ -34,6 +37,8 @@ def mode_sum(
     backbone = packing.without(gone) if gone.any() else packing
     step = AffineStep(backbone, find_contacts(backbone), interaction, loaded)
     elastic = elastic_modes(spectrum.eigenvalue)
+    if among is not None:
+        elastic = elastic[among[elastic]]
     modes = spectrum.modes[:, elastic]
     weight = modes.T @ step.force.ravel() / spectrum.eigenvalue[elastic]
     return step.moduli(modes @ weight)

@@ -39,7 +39,7 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=__version__)
     top.add_argument("--debug", action="store_true", help="show the traceback of an error")
     commands = top.add_subparsers(dest="name", metavar="COMMAND", required=True)
-    for define in (_compress, _pack, _rigidity, _step_strain, _spectrum, _point):
+    for define in (_compress, _pack, _rigidity, _step_strain, _spectrum, _probes, _point):
         define(commands)
     for define in (_gather, _ensemble, _figure, _show):
         define(commands)
@@ -92,6 +92,11 @@ def _step_strain(commands) -> None:
 def _spectrum(commands) -> None:
     sentence = "Eigenvalues of the Jacobian of packings, and what is measured on eigenvectors."
     _response(commands, "spectrum", "stages:spectrum", sentence)
+
+
+def _probes(commands) -> None:
+    sentence = "What single claims of paper A need, probed on packings."
+    _response(commands, "probes", "stages:probes", sentence)
 
 
 def _response(commands, name: str, run: str, sentence: str) -> None:
