@@ -31,7 +31,7 @@ BALANCE = 1e-2
 BASIN = 1e-6
 """The same before Newton's method."""
 
-LONGEST = 10_000
+LONGEST = 20_000
 """Time steps of the dynamics after a step of φ, at most: loose grains creep for ever."""
 
 TIME_STEP = 1e-2
