@@ -235,7 +235,7 @@ def test_imaginary_part_of_an_eigenpair():
 
 @pytest.mark.parametrize(("name", "ratio"), [(HERTZ, 2.397), (HARMONIC, 1.0)])
 def test_constant_stiffnesses_of_the_effective_hessian_are_those_of_harmonic_grains(name, ratio):
-    """A (H2) with k_N, k_T to the letter makes Hertzian grains too stiff; slopes give D = D_H."""
+    """A (H2) with k_N and k_T to the letter is too stiff for Hertzian grains; slopes give D."""
     packing, law = reference(name)[1], elastic(name, KT)
     contacts = find_contacts(packing)
     right, tangent, constant = (

@@ -39,7 +39,7 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=__version__)
     top.add_argument("--debug", action="store_true", help="show the traceback of an error")
     commands = top.add_subparsers(dest="name", metavar="COMMAND", required=True)
-    for define in (_compress, _pack, _rigidity, _step_strain, _spectrum, _point):
+    for define in (_compress, _pack, _rigidity, _step_strain, _spectrum, _probes, _point):
         define(commands)
     for define in (_gather, _ensemble, _figure, _show, _cost):
         define(commands)
@@ -100,7 +100,16 @@ def _spectrum(commands) -> None:
     )
 
 
+<<<<<<< HEAD
 def _response(commands, name: str, run: str, sentence: str) -> argparse.ArgumentParser:
+=======
+def _probes(commands) -> None:
+    sentence = "What single claims of paper A need, probed on packings."
+    _response(commands, "probes", "stages:probes", sentence)
+
+
+def _response(commands, name: str, run: str, sentence: str) -> None:
+>>>>>>> h4
     command = _command(commands, name, run, sentence)
     command.add_argument("packings", type=Path, help="file of `grainmodes pack`")
     _kt(command)

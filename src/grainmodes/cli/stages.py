@@ -91,6 +91,16 @@ def spectrum(arguments: Namespace) -> None:
     write_block(arguments.output, block)
 
 
+def probes(arguments: Namespace) -> None:
+    """Packings → what single claims need."""
+    from grainmodes.probes import probes_block
+
+    scene = _scene(arguments.settings, kt=arguments.kt)
+    with _opened(arguments.packings, "packings") as packings:
+        block = probes_block(packings, scene.law_at(arguments.kt), scene.protocol)
+    write_block(arguments.output, block)
+
+
 def point(arguments: Namespace) -> None:
     """Everything of one point, without files between."""
     from grainmodes.point import point_block

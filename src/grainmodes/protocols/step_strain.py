@@ -64,8 +64,7 @@ def step_strain(
     Raises:
         ValueError: damped relaxation of a frictionless packing (rotation does not exist there).
     """
-    gone = rattlers(find_contacts(packing), packing.n, threshold)
-    backbone = packing.without(gone) if gone.any() else packing
+    backbone = _backbone(packing, threshold)
     larger = _both_sides(backbone, interaction, protocol)
     g_forward, best = larger.g_forward, larger
     while best.error > AGREEMENT * abs(best.g) and larger.strain >= 9.9 * SMALLEST_STRAIN:
@@ -75,6 +74,30 @@ def step_strain(
         best = min(best, smaller, key=lambda result: result.error)
         larger = smaller
     return replace(best, g_forward=g_forward)
+
+
+def forward_rigidity(
+    packing: Packing, interaction: Interaction, protocol: StepStrain, threshold: int = 2
+) -> float:
+    """g of one forward step `protocol.strain`, whatever its error, k_N d^(1/2): A (14)–(16).
+
+    Raises:
+        ArithmeticError: the strained packing did not reach its balance.
+        ValueError: as `step_strain`.
+    """
+    before = _backbone(packing, threshold)
+    after = _relaxed(before.sheared(before.strain + protocol.strain), interaction, protocol)
+    if not after.converged:
+        raise ArithmeticError(f"max|F| = {after.max_force:.1e}, {after.iterations} iterations")
+    at_rest, strained = (
+        stress(state, find_contacts(state), interaction)[0, 1] for state in (before, after.packing)
+    )
+    return float((strained - at_rest) / protocol.strain)
+
+
+def _backbone(packing: Packing, threshold: int) -> Packing:
+    gone = rattlers(find_contacts(packing), packing.n, threshold)
+    return packing.without(gone) if gone.any() else packing
 
 
 def _both_sides(packing: Packing, interaction: Interaction, protocol: StepStrain) -> Simulated:
