@@ -20,6 +20,9 @@ SPECTRA = ("none", "eigenvalues", "modes")
 CHECKPOINT_SPACING = 0.01
 """Spacing in φ of the states along a compression from which every packing is reached."""
 
+TRANSLATIONAL_FREQUENCIES = (1.3e-2, 1.0)
+"""ω t_0 of A, Fig. 7, that does not depend on k_T."""
+
 LOWEST_CHECKPOINT = 0.80
 """First checkpoint: the first job of a trajectory compresses from random placement to here."""
 
@@ -157,21 +160,50 @@ def checkpoints_up_to(phi: float) -> list[float]:
     return [round(LOWEST_CHECKPOINT + k * CHECKPOINT_SPACING, 12) for k in range(count + 1)]
 
 
+def field_frequencies(kt: float) -> tuple[float, ...]:
+    """Frequencies in 1/t_0 whose eigenvectors are kept at k_T/k_N: those of A, Fig. 7.
+
+    ω_R = (k_T/k_N)^(1/2) lies in the band of rotations, 1.3e-2 at the lower end of the translations
+    of 4096 grains, 1 in their middle.
+
+    >>> field_frequencies(1e-8)
+    (0.0001, 0.013, 1.0)
+    """
+    return tuple(sorted({kt**0.5, *TRANSLATIONAL_FREQUENCIES} - {0.0}))
+
+
 @dataclass(frozen=True)
 class Figure:
-    """What a figure shows, and what its study must ask for."""
+    """What a figure shows, what its study must ask for, and what it is drawn from.
+
+    `source` is "ensemble", or "fields" for the files of single samples.
+    """
 
     title: str
     observables: tuple[str, ...]
+    source: str = "ensemble"
 
 
 FIGURES = {
+    "affine_fields": Figure(
+        "Affine and non-affine displacements of a step strain (paper A, Fig. 2)",
+        ("fields",),
+        "fields",
+    ),
+    "nonaffine_field": Figure(
+        "Non-affine displacements, theory and simulation (paper A, Fig. 3)", ("fields",), "fields"
+    ),
     "g_phi": Figure("Rigidity against area fraction (paper A, Fig. 4)", ("rigidity",)),
     "g_kt": Figure(
         "Rigidity against tangential stiffness (paper A, Fig. 5)", ("rigidity", "friction")
     ),
     "g_nonaffine": Figure(
         "Non-affine rigidity, unloaded and loaded step strain (paper A, Fig. 6)", ("rigidity",)
+    ),
+    "eigenvectors": Figure(
+        "Eigenvectors as displacements and rotations (paper A, Fig. 7)",
+        ("fields", "friction"),
+        "fields",
     ),
     "participation": Figure(
         "Translational and rotational fractions of the modes (paper A, Fig. 8)",

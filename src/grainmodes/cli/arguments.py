@@ -39,7 +39,7 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=__version__)
     top.add_argument("--debug", action="store_true", help="show the traceback of an error")
     commands = top.add_subparsers(dest="name", metavar="COMMAND", required=True)
-    for define in (_compress, _pack, _rigidity, _step_strain, _spectrum, _point):
+    for define in (_compress, _pack, _rigidity, _step_strain, _spectrum, _fields, _point):
         define(commands)
     for define in (_gather, _ensemble, _figure, _show):
         define(commands)
@@ -94,6 +94,11 @@ def _spectrum(commands) -> None:
     _response(commands, "spectrum", "stages:spectrum", sentence)
 
 
+def _fields(commands) -> None:
+    sentence = "Displacement fields and single eigenvectors of the first of some packings."
+    _response(commands, "fields", "stages:fields", sentence)
+
+
 def _response(commands, name: str, run: str, sentence: str) -> None:
     command = _command(commands, name, run, sentence)
     command.add_argument("packings", type=Path, help="file of `grainmodes pack`")
@@ -135,10 +140,12 @@ def _ensemble(commands) -> None:
 
 
 def _figure(commands) -> None:
-    sentence = "Draw a figure of an ensemble: PNG, PDF, and the plotted numbers as CSV."
+    sentence = "Draw a figure: PNG, PDF, and the plotted numbers as CSV."
     command = _command(commands, "figure", "collections:figure", sentence)
     command.add_argument("figure", choices=FIGURES, metavar="NAME", help=", ".join(FIGURES))
-    command.add_argument("ensemble", type=Path, help="file of `grainmodes ensemble`")
+    command.add_argument(
+        "data", type=Path, nargs="+", help="file of `grainmodes ensemble`, or of `grainmodes fields`"
+    )
     command.add_argument("--n", type=int, help="the number of grains to show")
     command.add_argument("--phi", type=float, help="the area fraction to show")
     command.add_argument("--kt", type=float, nargs="+", help="the tangential stiffnesses to show")

@@ -1,4 +1,4 @@
-"""Commands that collect: blocks into a point, points into an ensemble, an ensemble into figures."""
+"""Commands that collect: blocks into a point, points into an ensemble, either into figures."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ def ensemble(arguments: Namespace) -> None:
 
 
 def figure(arguments: Namespace) -> None:
-    """An ensemble → one figure."""
+    """An ensemble, or fields → one figure."""
     from grainmodes.figures import draw
 
     asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "fineness")}
     options = {name: value for name, value in asked.items() if value is not None}
-    draw(arguments.figure, arguments.ensemble, arguments.output, options)
+    draw(arguments.figure, arguments.data, arguments.output, options)

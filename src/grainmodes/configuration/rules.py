@@ -116,6 +116,7 @@ NEEDED = {
     "rigidity": "observables.rigidity: true",
     "spectrum": "observables.spectrum: eigenvalues or modes",
     "modes": "observables.spectrum: modes",
+    "fields": "observables.fields: true",
     "friction": "a kt above 0",
 }
 

@@ -100,6 +100,7 @@ class Scene:
             "step_strain": _part(law, protocol, "step_strain"),
             "spectrum": _part(law, protocol, "rattlers")
             | {"observables": {"spectrum": self.spectrum}},
+            "fields": _part(law, protocol, "rattlers", "step_strain"),
             "ensemble": _part(law, protocol, *protocol) | {"study": self.study},
         }
         return json.dumps(parts[stage], sort_keys=True)
@@ -121,6 +122,7 @@ def lacking(figure: str, config: dict) -> list[str]:
         "rigidity": observables["rigidity"],
         "spectrum": observables["spectrum"] != "none",
         "modes": observables["spectrum"] == "modes",
+        "fields": False,
         "friction": config["effects"]["friction"] and any(map(bool, config["grid"]["kt"])),
     }
     return [name for name in FIGURES[figure].observables if not asked[name]]
