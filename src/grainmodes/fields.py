@@ -132,7 +132,7 @@ def _vibration(matrix, shift: float, n: int) -> tuple[float, np.ndarray]:
 
 
 def _nearest(matrix, shift: float, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """The eigenpairs nearest a shift; the start of the iteration is given, or it would be random."""
+    """The eigenpairs nearest a shift, from a given start: ARPACK's own is random."""
     start = np.random.default_rng(0).standard_normal(matrix.shape[0])
     return eigsh(matrix, k=count, sigma=shift, v0=start)
 

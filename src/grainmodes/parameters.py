@@ -185,25 +185,12 @@ class Figure:
 
 
 FIGURES = {
-    "affine_fields": Figure(
-        "Affine and non-affine displacements of a step strain (paper A, Fig. 2)",
-        ("fields",),
-        "fields",
-    ),
-    "nonaffine_field": Figure(
-        "Non-affine displacements, theory and simulation (paper A, Fig. 3)", ("fields",), "fields"
-    ),
     "g_phi": Figure("Rigidity against area fraction (paper A, Fig. 4)", ("rigidity",)),
     "g_kt": Figure(
         "Rigidity against tangential stiffness (paper A, Fig. 5)", ("rigidity", "friction")
     ),
     "g_nonaffine": Figure(
         "Non-affine rigidity, unloaded and loaded step strain (paper A, Fig. 6)", ("rigidity",)
-    ),
-    "eigenvectors": Figure(
-        "Eigenvectors as displacements and rotations (paper A, Fig. 7)",
-        ("fields", "friction"),
-        "fields",
     ),
     "participation": Figure(
         "Translational and rotational fractions of the modes (paper A, Fig. 8)",
@@ -212,6 +199,19 @@ FIGURES = {
     "dos": Figure("Density of states (paper A, Fig. 9)", ("spectrum",)),
     "dos_scaled": Figure(
         "Density of states, scaled by omega_R (paper A, Fig. 10)", ("spectrum", "friction")
+    ),
+    "affine_fields": Figure(
+        "Affine and non-affine displacements of a step strain (paper A, Fig. 2)",
+        ("fields",),
+        "fields",
+    ),
+    "nonaffine_field": Figure(
+        "Non-affine displacements, theory and simulation (paper A, Fig. 3)", ("fields",), "fields"
+    ),
+    "eigenvectors": Figure(
+        "Eigenvectors as displacements and rotations (paper A, Fig. 7)",
+        ("fields", "friction"),
+        "fields",
     ),
 }
 """Every figure. `rigidity` figures show the simulated step strain as well where a study has it;

@@ -144,7 +144,10 @@ def _figure(commands) -> None:
     command = _command(commands, "figure", "collections:figure", sentence)
     command.add_argument("figure", choices=FIGURES, metavar="NAME", help=", ".join(FIGURES))
     command.add_argument(
-        "data", type=Path, nargs="+", help="file of `grainmodes ensemble`, or of `grainmodes fields`"
+        "data",
+        type=Path,
+        nargs="+",
+        help="file of `grainmodes ensemble`, or of `grainmodes fields`",
     )
     command.add_argument("--n", type=int, help="the number of grains to show")
     command.add_argument("--phi", type=float, help="the area fraction to show")

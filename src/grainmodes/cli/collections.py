@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from pathlib import Path
+
+from grainmodes.parameters import FIGURES
 
 
 def gather(arguments: Namespace) -> None:
@@ -26,4 +29,15 @@ def figure(arguments: Namespace) -> None:
 
     asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "fineness")}
     options = {name: value for name, value in asked.items() if value is not None}
-    draw(arguments.figure, arguments.data, arguments.output, options)
+    draw(arguments.figure, _source(arguments), arguments.output, options)
+
+
+def _source(arguments: Namespace) -> Path | list[Path]:
+    """What the figure is drawn from: files of fields, or one ensemble."""
+    if FIGURES[arguments.figure].source == "fields":
+        return arguments.data
+    if len(arguments.data) > 1:
+        raise ValueError(
+            f"{arguments.figure} is drawn from one ensemble, not {len(arguments.data)}"
+        )
+    return arguments.data[0]
