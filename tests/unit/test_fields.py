@@ -138,7 +138,7 @@ def test_single_modes_are_those_of_the_dense_spectrum(name, kt):
         assert vector[np.argmax(np.abs(vector))] > 0.0
         assert vector @ vector == pytest.approx(1.0, abs=1e-12)
     # Far below every vibration the shift is so near the translations that they eat 8 digits.
-    assert found.residual.max() < 1e-10
+    assert found.residual.max() < 1e-9
     assert found.residual[2:].max() < 1e-13
 
 
