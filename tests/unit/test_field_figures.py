@@ -140,7 +140,7 @@ def test_a_displacement_figure_shows_the_densest_and_most_frictional_sample(name
 
 
 def test_eigenvectors_are_those_of_the_papers_stiffnesses_where_there_are_any():
-    blocks = [fields(kt=kt) for kt in (1.0, 1e-4, 0.0, 1e-8)]
+    blocks = [fields(kt=kt) for kt in (1.0, 1e-4, 0.0, 1e-6, 1e-8)]
     assert list(eigenvectors.table(blocks, Options())["kt"].unique()) == [1e-8, 1e-4]
     assert list(eigenvectors.table(blocks[:1], Options())["kt"].unique()) == [1.0]
     asked = eigenvectors.table(blocks, Options(kt=(1.0,)))

@@ -27,7 +27,6 @@ COLOURS = matplotlib.colors.LinearSegmentedColormap.from_list(
 )
 """Red turns counter-clockwise; the dark ends are cut off, so that black arrows stay visible."""
 
-NOTHING = (0.0, 0.0, 0.0, 0.0)
 OUTLINED = 1100
 """Grains up to which circles have outlines and are vectors; more would be grey, and megabytes."""
 
@@ -93,8 +92,7 @@ def add_key(axes: Axes, arrows: Quiver, scale: Scale, unit: str) -> None:
 
 def _discs(axes: Axes, of: pd.DataFrame, rotation: np.ndarray, limit: float) -> None:
     """Every grain as a circle of its colour, and its images that reach into the box."""
-    faces = COLOURS(_norm(limit)(rotation))
-    faces[np.isnan(rotation)] = NOTHING
+    faces = COLOURS(_norm(limit)(rotation))  # NaN is transparent
     place, grain = _with_images(of)
     diameter, outlined = of["diameter"].to_numpy()[grain], len(of) <= OUTLINED
     axes.add_collection(
