@@ -22,6 +22,9 @@ FACTORISATIONS = ("auto", "superlu", "pardiso")
 CHECKPOINT_SPACING = 0.01
 """Spacing in φ of the states along a compression from which every packing is reached."""
 
+TRANSLATIONAL_FREQUENCIES = (1.3e-2, 1.0)
+"""ω t_0 of A, Fig. 7, that does not depend on k_T."""
+
 LOWEST_CHECKPOINT = 0.80
 """First checkpoint: the first job of a trajectory compresses from random placement to here."""
 
@@ -172,12 +175,29 @@ def checkpoints_up_to(phi: float) -> list[float]:
     return [round(LOWEST_CHECKPOINT + k * CHECKPOINT_SPACING, 12) for k in range(count + 1)]
 
 
+def field_frequencies(kt: float) -> tuple[float, ...]:
+    """Frequencies in 1/t_0 whose eigenvectors are kept at k_T/k_N: those of A, Fig. 7.
+
+    ω_R = (k_T/k_N)^(1/2) lies in the band of rotations, 1.3e-2 at the lower end of the translations
+    of 4096 grains, 1 in their middle.
+
+    >>> field_frequencies(1e-8)
+    (0.0001, 0.013, 1.0)
+    """
+    return tuple(sorted({kt**0.5, *TRANSLATIONAL_FREQUENCIES} - {0.0}))
+
+
 @dataclass(frozen=True)
 class Figure:
-    """What a figure shows, and what its study must ask for: words of `configuration.grids`."""
+    """What a figure shows, what its study must ask for, and what it is drawn from.
+
+    `observables` are words of `configuration.grids`; `source` is "ensemble", or "fields" for the
+    files of single samples.
+    """
 
     title: str
     observables: tuple[str, ...]
+    source: str = "ensemble"
 
 
 FIGURES = {
@@ -195,6 +215,19 @@ FIGURES = {
     "dos": Figure("Density of states (paper A, Fig. 9)", ("spectrum",)),
     "dos_scaled": Figure(
         "Density of states, scaled by omega_R (paper A, Fig. 10)", ("spectrum", "friction")
+    ),
+    "affine_fields": Figure(
+        "Affine and non-affine displacements of a step strain (paper A, Fig. 2)",
+        ("fields",),
+        "fields",
+    ),
+    "nonaffine_field": Figure(
+        "Non-affine displacements, theory and simulation (paper A, Fig. 3)", ("fields",), "fields"
+    ),
+    "eigenvectors": Figure(
+        "Eigenvectors as displacements and rotations (paper A, Fig. 7)",
+        ("fields", "friction"),
+        "fields",
     ),
 }
 """Every figure. `rigidity` figures show the simulated step strain as well where a study has it;

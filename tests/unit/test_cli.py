@@ -54,7 +54,8 @@ def test_help_names_every_command(capsys):
         main(["--help"])
     assert stop.value.code == 0
     text = capsys.readouterr().out
-    for name in ("compress", "pack", "rigidity", "step-strain", "spectrum", "gather", "cost"):
+    commands = ("compress", "pack", "rigidity", "step-strain", "spectrum", "fields", "probes")
+    for name in (*commands, "gather", "cost", "claims"):
         assert f"    {name}" in text
 
 
@@ -111,7 +112,7 @@ def test_a_missing_file_is_named(capsys, tmp_path):
     assert capsys.readouterr().err == "grainmodes rigidity: nowhere.nc: no such file\n"
 
 
-@pytest.mark.parametrize("command", ["rigidity", "step-strain", "spectrum"])
+@pytest.mark.parametrize("command", ["rigidity", "step-strain", "spectrum", "fields"])
 def test_a_truncated_file_is_refused(capsys, tmp_path, study, command):
     whole = (study / "packings.nc").read_bytes()
     (tmp_path / "half.nc").write_bytes(whole[: len(whole) // 2])
@@ -169,6 +170,7 @@ def test_debugging_shows_where():
         ("rigidity", {"g", "g_affine", "g_nonaffine_loaded"}),
         ("step-strain", {"g_simulated", "contact_changes"}),
         ("spectrum", {"eigenvalue", "psi_rotational"}),
+        ("fields", {"nonaffine_field", "nonaffine_field_simulated", "eigenvector"}),
     ],
 )
 def test_a_response_is_written(tmp_path, study, command, names):
@@ -178,6 +180,17 @@ def test_a_response_is_written(tmp_path, study, command, names):
     block = read_block(output)
     assert names <= set(block.variables)
     assert float(block.attributes["kt"]) == 1e-4
+
+
+def test_a_figure_of_fields_and_one_of_two_ensembles(tmp_path, study, capsys):
+    fields = tmp_path / "fields.nc"
+    words = ["fields", str(study / "packings.nc"), "--kt", "1e-4", "-o", str(fields)]
+    assert main(words) == 0
+    figure = ["figure", "affine_fields", str(fields), "-o", str(tmp_path / "affine")]
+    assert main(figure) == 0
+    assert (tmp_path / "affine.csv").exists()
+    assert main(["figure", "g_phi", "a.nc", "b.nc", "-o", str(tmp_path / "g")]) == 1
+    assert "g_phi is drawn from one ensemble, not 2" in capsys.readouterr().err
 
 
 def test_a_spectrum_of_nothing_is_refused(capsys, tmp_path, study):

@@ -64,3 +64,16 @@ def test_a_checkpoint_is_its_own(step):
 def test_steps_of_the_compression_do_not_drift(step):
     assert parameters.phi_at_step(0.6, 1e-4, step) == pytest.approx(0.6 + step / 1e4, abs=1e-12)
     assert len(parameters.format_value(parameters.phi_at_step(0.6, 1e-4, step))) <= 6
+
+
+@pytest.mark.parametrize(
+    ("kt", "frequencies"),
+    [
+        (1e-8, (1e-4, 1.3e-2, 1.0)),
+        (1e-4, (1e-2, 1.3e-2, 1.0)),
+        (1.0, (1.3e-2, 1.0)),
+        (0.0, (1.3e-2, 1.0)),
+    ],
+)
+def test_single_modes_are_those_of_the_paper(kt, frequencies):
+    assert parameters.field_frequencies(kt) == frequencies

@@ -15,6 +15,7 @@ STAGES = {
     "rigidity": "grainmodes.blocks:rigidity_block",
     "step_strain": "grainmodes.blocks:step_strain_block",
     "spectrum": "grainmodes.blocks:spectrum_block",
+    "fields": "grainmodes.field_blocks:fields_block",
     "point": "grainmodes.ensemble:gather_point",
     "ensemble": "grainmodes.ensemble:write_ensemble",
     "figure": "grainmodes.figures",
@@ -128,7 +129,9 @@ def test_figures_stand_alone():
         assert bool(drawn) == (stage == "figure")
 
 
-@pytest.mark.parametrize("stage", ["rigidity", "step_strain", "spectrum", "compress", "pack"])
+@pytest.mark.parametrize(
+    "stage", ["rigidity", "step_strain", "spectrum", "fields", "compress", "pack"]
+)
 def test_every_computing_stage_counts_the_kernels_it_calls(stage):
     assert {"kernels/laws.py", "kernels/compiler.py", "dataset.py"} <= names(STAGES[stage])
 

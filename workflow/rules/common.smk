@@ -58,6 +58,13 @@ def sources_of_figure(wildcards):
     return sources("grainmodes.figures", f"grainmodes.figures.{wildcards.figure}")
 
 
+def data_of_figure(wildcards):
+    """What a figure is drawn from: the ensemble, or the fields of every point that has them."""
+    if FIGURES[wildcards.figure].source == "fields":
+        return files_of("fields", scene.field_points)
+    return rules.ensemble.output
+
+
 def checkpoint_below(wildcards):
     """The checkpoint that a checkpoint starts from; none for the lowest."""
     below = round(float(wildcards.phi) - CHECKPOINT_SPACING, 12)

@@ -1,9 +1,9 @@
-# The ensemble -> pictures, and the plotted numbers beside them.
+# The ensemble, and fields of single samples -> pictures, and the plotted numbers beside them.
 
 
 rule figure:
     input:
-        ensemble=rules.ensemble.output,
+        data=data_of_figure,
         code=sources_of_figure,
     output:
         [f"{STUDY}/figures/{{figure}}.{form}" for form in FORMS],
@@ -14,4 +14,4 @@ rule figure:
     message:
         "Draw {wildcards.figure}."
     shell:
-        "grainmodes figure {wildcards.figure} {input.ensemble} -o {params.stem}"
+        "grainmodes figure {wildcards.figure} {input.data} -o {params.stem}"

@@ -39,7 +39,7 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=__version__)
     top.add_argument("--debug", action="store_true", help="show the traceback of an error")
     commands = top.add_subparsers(dest="name", metavar="COMMAND", required=True)
-    for define in (_compress, _pack, _rigidity, _step_strain, _spectrum, _probes, _point):
+    for define in (_compress, _pack, _rigidity, _step_strain, _spectrum, _fields, _probes, _point):
         define(commands)
     for define in (_gather, _ensemble, _figure, _show, _cost):
         define(commands)
@@ -100,16 +100,17 @@ def _spectrum(commands) -> None:
     )
 
 
-<<<<<<< HEAD
-def _response(commands, name: str, run: str, sentence: str) -> argparse.ArgumentParser:
-=======
 def _probes(commands) -> None:
     sentence = "What single claims of paper A need, probed on packings."
     _response(commands, "probes", "stages:probes", sentence)
 
 
-def _response(commands, name: str, run: str, sentence: str) -> None:
->>>>>>> h4
+def _fields(commands) -> None:
+    sentence = "Displacement fields and single eigenvectors of the first of some packings."
+    _response(commands, "fields", "stages:fields", sentence)
+
+
+def _response(commands, name: str, run: str, sentence: str) -> argparse.ArgumentParser:
     command = _command(commands, name, run, sentence)
     command.add_argument("packings", type=Path, help="file of `grainmodes pack`")
     _kt(command)
@@ -151,10 +152,15 @@ def _ensemble(commands) -> None:
 
 
 def _figure(commands) -> None:
-    sentence = "Draw a figure of an ensemble: PNG, PDF, and the plotted numbers as CSV."
+    sentence = "Draw a figure: PNG, PDF, and the plotted numbers as CSV."
     command = _command(commands, "figure", "collections:figure", sentence)
     command.add_argument("figure", choices=FIGURES, metavar="NAME", help=", ".join(FIGURES))
-    command.add_argument("ensemble", type=Path, help="file of `grainmodes ensemble`")
+    command.add_argument(
+        "data",
+        type=Path,
+        nargs="+",
+        help="file of `grainmodes ensemble`, or of `grainmodes fields`",
+    )
     command.add_argument("--n", type=int, help="the number of grains to show")
     command.add_argument("--phi", type=float, help="the area fraction to show")
     command.add_argument("--kt", type=float, nargs="+", help="the tangential stiffnesses to show")

@@ -1,8 +1,11 @@
-"""Commands that collect: blocks into a point, points into an ensemble, an ensemble into figures."""
+"""Commands that collect: blocks into a point, points into an ensemble, either into figures."""
 
 from __future__ import annotations
 
 from argparse import Namespace
+from pathlib import Path
+
+from grainmodes.parameters import FIGURES
 
 
 def gather(arguments: Namespace) -> None:
@@ -21,9 +24,20 @@ def ensemble(arguments: Namespace) -> None:
 
 
 def figure(arguments: Namespace) -> None:
-    """An ensemble → one figure."""
+    """An ensemble, or fields → one figure."""
     from grainmodes.figures import draw
 
     asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "fineness")}
     options = {name: value for name, value in asked.items() if value is not None}
-    draw(arguments.figure, arguments.ensemble, arguments.output, options)
+    draw(arguments.figure, _source(arguments), arguments.output, options)
+
+
+def _source(arguments: Namespace) -> Path | list[Path]:
+    """What the figure is drawn from: files of fields, or one ensemble."""
+    if FIGURES[arguments.figure].source == "fields":
+        return arguments.data
+    if len(arguments.data) > 1:
+        raise ValueError(
+            f"{arguments.figure} is drawn from one ensemble, not {len(arguments.data)}"
+        )
+    return arguments.data[0]

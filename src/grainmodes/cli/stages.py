@@ -10,6 +10,7 @@ from pathlib import Path
 from grainmodes import blocks
 from grainmodes.configuration import ConfigurationError, Scene, scene_of
 from grainmodes.dataset import Block, BlockError, read_block, write_block
+from grainmodes.parameters import field_frequencies
 
 OPTIONS = {
     "grids[0].n[0]": "--n",
@@ -98,6 +99,18 @@ def probes(arguments: Namespace) -> None:
     scene = _scene(arguments.settings, kt=arguments.kt)
     with _opened(arguments.packings, "packings") as packings:
         block = probes_block(packings, scene.law_at(arguments.kt), scene.protocol)
+    write_block(arguments.output, block)
+
+
+def fields(arguments: Namespace) -> None:
+    """Packings → fields of the first of them."""
+    from grainmodes.field_blocks import fields_block
+
+    scene = _scene(arguments.settings, kt=arguments.kt)
+    law, protocol = scene.law_at(arguments.kt), scene.protocol
+    frequencies = field_frequencies(arguments.kt)
+    with _opened(arguments.packings, "packings") as packings:
+        block = fields_block(packings, law, protocol.rattlers, protocol.step_strain, frequencies)
     write_block(arguments.output, block)
 
 

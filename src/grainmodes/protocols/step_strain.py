@@ -104,10 +104,7 @@ def _both_sides(packing: Packing, interaction: Interaction, protocol: StepStrain
     """Steps of ±Δγ, each relaxed; the error is not yet known."""
     before = find_contacts(packing)
     at_rest = stress(packing, before, interaction)[0, 1]
-    steps = [
-        _relaxed(packing.sheared(packing.strain + step), interaction, protocol)
-        for step in (protocol.strain, -protocol.strain)
-    ]
+    steps = relaxed_steps(packing, interaction, protocol)
     after = [find_contacts(step.packing) for step in steps]
     forward, backward = (
         stress(step.packing, contacts, interaction)[0, 1]
@@ -124,6 +121,21 @@ def _both_sides(packing: Packing, interaction: Interaction, protocol: StepStrain
         max(step.max_torque for step in steps),
         max(changes(before, contacts) for contacts in after),
     )
+
+
+def relaxed_steps(
+    packing: Packing, interaction: Interaction, protocol: StepStrain
+) -> tuple[Relaxed, Relaxed]:
+    """A packing without rattlers after steps of Δγ and −Δγ, each relaxed.
+
+    Raises:
+        ValueError: damped relaxation of a frictionless packing (rotation does not exist there).
+    """
+    forward, backward = (
+        _relaxed(packing.sheared(packing.strain + step), interaction, protocol)
+        for step in (protocol.strain, -protocol.strain)
+    )
+    return forward, backward
 
 
 def _relaxed(packing: Packing, interaction: Interaction, protocol: StepStrain) -> Relaxed:

@@ -1,0 +1,161 @@
+"""The fields of a packing: how its grains answer a step strain, and single eigenvectors.
+
+    r_i(Δγ) − r_i(0) = Δγ (y_i − L/2, 0) + Δr̊_i,    ℓ_i(Δγ) − ℓ_i(0) = Δℓ̊_i        A (10), (11)
+    u_i = (dr̊_i/dγ, dℓ̊_i/dγ)                                                     A (12), (13), (33)
+
+u is found in three ways that must agree: the direct solve of `rigidity`, the sum over the modes,
+A (38), and the relaxed states at Δγ and −Δγ. A takes the forward difference; the central one leaves
+an error of second order. Eigenvectors, J R_n = λ_n R_n with λ_n = ω_n², are those of A (21), (48).
+
+A field is (N, 3), components (x, y, ℓ), on all grains: NaN for the rattlers, which are taken out
+before anything is solved, and NaN for ℓ where friction does not exist. The mean of x and of y is
+zero: a translation of all grains is no answer to strain.
+
+| symbol  | name                       |   | symbol | name                        |
+| ------- | -------------------------- | - | ------ | --------------------------- |
+| y − L/2 | `affine_field`             |   | ω_n    | `NearestModes.frequency`    |
+| u       | `nonaffine_field`, …       |   | R_n    | `NearestModes.eigenvector`  |
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse.linalg import eigsh
+
+from grainmodes.jacobian import jacobian
+from grainmodes.kernels.laws import Interaction
+from grainmodes.kernels.neighbours import RESOLUTION
+from grainmodes.modes import mode_sum
+from grainmodes.packing import Packing, find_contacts, rattlers
+from grainmodes.parameters import StepStrain
+from grainmodes.protocols.step_strain import relaxed_steps
+from grainmodes.rigidity import rigidity
+from grainmodes.spectrum import spectrum
+
+TRANSLATIONS = 2
+"""Zero modes of every rigid backbone."""
+
+
+@dataclass(frozen=True)
+class NearestModes:
+    """M modes: ω_n in 1/t_0 (M,), R_n of norm 1 (M, N, 3), and |J R − λ R| (M,)."""
+
+    frequency: np.ndarray
+    eigenvector: np.ndarray
+    residual: np.ndarray
+
+
+def affine_field(packing: Packing) -> np.ndarray:
+    """(y_i − L/2, 0, 0) of every grain, (N, 3) in d: the affine displacement per unit strain."""
+    field = np.zeros((packing.n, 3))
+    field[:, 0] = packing.position[:, 1] - packing.box_length / 2
+    return field
+
+
+def nonaffine_field(packing: Packing, interaction: Interaction, threshold: int = 2) -> np.ndarray:
+    """u from one sparse solve, for springs that the affine step does not load; (N, 3) in d.
+
+    Raises:
+        FloppyError: the backbone has zero modes beyond the translations.
+    """
+    gone = _rattlers(packing, threshold)
+    return _on_all(rigidity(packing, interaction, threshold).unloaded.displacement, gone)
+
+
+def mode_sum_field(packing: Packing, interaction: Interaction, threshold: int = 2) -> np.ndarray:
+    """u from all eigenvectors of a dense J, A (38); (N, 3) in d.
+
+    Raises:
+        ValueError: J is not symmetric.
+    """
+    gone = _rattlers(packing, threshold)
+    modes = spectrum(packing, interaction, threshold)
+    return _on_all(mode_sum(packing, interaction, modes, threshold).displacement, gone)
+
+
+def simulated_field(
+    packing: Packing, interaction: Interaction, protocol: StepStrain, threshold: int = 2
+) -> np.ndarray:
+    """u from step strains to both sides, relaxed by the full non-linear forces; (N, 3) in d.
+
+    Raises:
+        ArithmeticError: a relaxation did not reach its force tolerance.
+    """
+    gone = _rattlers(packing, threshold)
+    backbone = packing.without(gone)
+    steps = relaxed_steps(backbone, interaction, protocol)
+    for step in steps:
+        if not step.converged:
+            worst = max(step.max_force, step.max_torque)
+            raise ArithmeticError(f"step strain: {worst:.1e} is left after {step.iterations} steps")
+    forward, backward = (_displacement(backbone, step.packing) for step in steps)
+    u = (forward - backward) / (2.0 * protocol.strain)
+    u[:, :2] -= u[:, :2].mean(axis=0)
+    return _on_all(u, gone)
+
+
+def nearest_modes(
+    packing: Packing, interaction: Interaction, frequencies: tuple[float, ...], threshold: int = 2
+) -> NearestModes:
+    """The mode whose λ lies nearest to ω², for each ω in `frequencies` (1/t_0); no translation.
+
+    Raises:
+        ValueError: J is not symmetric.
+    """
+    if packing.history is not None:
+        raise ValueError("single modes need a symmetric Jacobian, every s = 0")
+    gone = _rattlers(packing, threshold)
+    backbone = packing.without(gone)
+    matrix = jacobian(backbone, find_contacts(backbone), interaction)
+    pairs = [_vibration(matrix, frequency**2, backbone.n) for frequency in frequencies]
+    values, vectors = np.array([value for value, _ in pairs]), np.array([r for _, r in pairs])
+    return NearestModes(
+        np.sqrt(np.abs(values)),
+        np.stack([_on_all(vector.reshape(backbone.n, -1), gone) for vector in vectors]),
+        np.linalg.norm(matrix @ vectors.T - vectors.T * values, axis=0),
+    )
+
+
+def _vibration(matrix, shift: float, n: int) -> tuple[float, np.ndarray]:
+    """The eigenpair nearest a shift among those that are no translation.
+
+    A translation has Σ_i R_i of length √N, any other mode has zero. The sign makes the largest
+    component positive.
+    """
+    values, vectors = _nearest(matrix, shift, TRANSLATIONS + 1)
+    drift = vectors.reshape(n, -1, len(values))[:, :2].sum(axis=0)
+    distance = np.where((drift**2).sum(axis=0) < n / 2, np.abs(values - shift), np.inf)
+    vector = vectors[:, np.argmin(distance)]
+    return values[np.argmin(distance)], vector * np.sign(vector[np.argmax(np.abs(vector))])
+
+
+def _nearest(matrix, shift: float, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """The eigenpairs nearest a shift, from a given start: ARPACK's own is random."""
+    start = np.random.default_rng(0).standard_normal(matrix.shape[0])
+    return eigsh(matrix, k=count, sigma=shift, v0=start)
+
+
+def _displacement(before: Packing, after: Packing) -> np.ndarray:
+    """(Δr̊, Δℓ̊) of every grain between two states of a packing, exact in the fractions; (N, k).
+
+    r = L (s_x + γ s_y, s_y), of which the change of γ alone is the affine part.
+    """
+    x, y = (after.fraction - before.fraction) * (RESOLUTION * before.box_length)
+    moved = [x + after.strain * y, y]
+    if after.rotation is not None:
+        at_first = 0.0 if before.rotation is None else before.rotation
+        moved.append(after.rotation - at_first)
+    return np.stack(moved, axis=1)
+
+
+def _rattlers(packing: Packing, threshold: int) -> np.ndarray:
+    return rattlers(find_contacts(packing), packing.n, threshold)
+
+
+def _on_all(field: np.ndarray, gone: np.ndarray) -> np.ndarray:
+    """A field (N', k) of the backbone on all N grains, (N, 3)."""
+    whole = np.full((len(gone), 3), np.nan)
+    whole[~gone, : field.shape[1]] = field
+    return whole

@@ -1,0 +1,94 @@
+"""The non-affine field of one sample: mode sum, simulation, and component by component (A, Fig. 3).
+
+The components stand in the order of A (33): x, y and ℓ of one grain, then of the next.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from grainmodes.dataset import Block
+from grainmodes.figures import appearance
+from grainmodes.figures.field_rows import (
+    COMPONENTS,
+    GRAINS,
+    STEP,
+    at_kt,
+    at_point,
+    described,
+    displacements,
+    jammed,
+    joined,
+)
+from grainmodes.figures.grain_maps import Scale, add_colour_bar, add_key, draw_map, write_caption
+from grainmodes.figures.selection import Options
+
+PAPER_N = 1024
+VARIABLES = {"theory": "nonaffine_field_mode_sum", "simulation": "nonaffine_field_simulated"}
+TITLES = {"theory": "sum over the modes", "simulation": "simulation"}
+
+COLUMNS = {
+    **GRAINS,
+    **STEP,
+    **described("theory", "d", "non-affine displacement per unit strain from the modes"),
+    **described("simulation", "d", "the same from the relaxed step strains; empty: a rattler"),
+}
+
+
+def table(fields: list[Block], options: Options) -> pd.DataFrame:
+    """The field in theory and simulation, grain by grain, with the columns `COLUMNS`.
+
+    Raises:
+        BlockError: samples are jammed, but none has a field from the modes.
+        ValueError: no sample has the n, phi or kt asked for.
+    """
+    samples = jammed(fields, "nonaffine_field", VARIABLES["theory"])
+    shown = at_kt(at_point(samples, options, PAPER_N), options)
+    return joined((displacements(block, VARIABLES) for block in shown), COLUMNS)
+
+
+def draw(figure: Figure, table: pd.DataFrame) -> None:
+    """(a), (b): maps on one scale; (c): every component; below it, what the two differ by."""
+    figure.set_size_inches(7.0, 6.4)
+    maps, lines = figure.subfigures(2, 1, height_ratios=(3.6, 2.8))
+    _maps(maps, table)
+    above, below = lines.subplots(2, 1, sharex=True, height_ratios=(3, 1.4))
+    _components(above, below, *(_in_order(table, prefix) for prefix in VARIABLES))
+    lines.align_ylabels()
+    appearance.name_panel(above, 2, "component by component")
+    write_caption(maps, table, "arrows: displacement per unit strain")
+
+
+def _maps(figure: Figure, table: pd.DataFrame) -> None:
+    panels = figure.subplots(1, 2, sharey=True)
+    scale = Scale.of(table, tuple(VARIABLES), arrow=1.3)
+    for index, (axes, prefix) in enumerate(zip(panels, VARIABLES, strict=True)):
+        add_key(axes, draw_map(axes, table, prefix, scale), scale, "$\\,d$")
+        appearance.name_panel(axes, index, TITLES[prefix])
+        axes.label_outer()
+    add_colour_bar(figure, list(panels), scale, r"$d\mathring{\ell}/d\gamma$  $(d)$")
+
+
+def _in_order(table: pd.DataFrame, prefix: str) -> np.ndarray:
+    """The components as one vector (3N,): A (33)."""
+    return table[[f"{prefix}_{name}" for name in COMPONENTS]].to_numpy().ravel()
+
+
+def _components(above: Axes, below: Axes, theory: np.ndarray, simulation: np.ndarray) -> None:
+    """Open circles: theory; dots within them: simulation; logarithmic: their difference."""
+    rank = np.arange(len(theory))
+    open_circles = {"ms": 3.6, "mew": 0.4, "fillstyle": "none", "color": appearance.ROTATIONAL}
+    dots = {"ms": 1.8, "mew": 0.0, "rasterized": True}
+    above.plot(rank, theory, "o", **open_circles, rasterized=True, label=TITLES["theory"])
+    above.plot(
+        rank, simulation, "o", **dots, color=appearance.TRANSLATIONAL, label=TITLES["simulation"]
+    )
+    below.plot(rank, np.abs(simulation - theory), "o", **dots, color="0.3")
+    largest = 1.35 * np.nanmax(np.abs(theory))
+    above.set(ylabel=r"$d\mathring{q}/d\gamma$  $(d)$", ylim=(-largest, largest))
+    above.legend(loc="upper right", ncols=2, markerscale=1.5)
+    below.set(yscale="log", ylabel=r"difference  $(d)$", xlim=(-0.5, len(rank) - 0.5))
+    below.set_xlabel("component: $x$, $y$, $\\ell$ of the first grain, of the second, ...")
