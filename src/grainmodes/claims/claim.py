@@ -84,12 +84,32 @@ class Outcome(NamedTuple):
     note: str = ""
 
 
+def every(kinds: dict[str, list[Part]]) -> list[Part]:
+    """The parts of a claim that says several things; there must be some of each.
+
+    Args:
+        kinds: what the ensemble needs for some parts → these parts.
+
+    Raises:
+        NotAsked: there are no parts of some kind.
+    """
+    absent = [name for name, parts in kinds.items() if not parts]
+    if absent:
+        raise NotAsked(" and ".join(absent))
+    return [part for parts in kinds.values() for part in parts]
+
+
 @dataclass(frozen=True)
 class Verdict:
-    """A row of the table. `measured` is the part that decided, NaN where nothing was asked."""
+    """A row of the table.
+
+    `measured` is the part that decided: of a claim that holds the one nearest to its limit, else
+    the one farthest outside; NaN where nothing was asked. `where` names it.
+    """
 
     claim: str
     statement: str
+    where: str
     measured: float
     uncertainty: float
     unit: str
@@ -114,8 +134,9 @@ def claim(name: str, unit: str) -> Callable[[Callable[[xr.Dataset], Outcome]], C
 
         @wraps(function)
         def judge(ensemble: xr.Dataset) -> Verdict:
-            estimate, verdict, explanation = _judged(function, ensemble)
-            return Verdict(name, statement, *estimate, unit, criterion, verdict, explanation)
+            part, verdict, explanation = _judged(function, ensemble)
+            measured = (part.where, *part.estimate, unit)
+            return Verdict(name, statement, *measured, criterion, verdict, explanation)
 
         return judge
 
@@ -128,16 +149,17 @@ def _words(function: Callable) -> tuple[str, str]:
     return paragraphs[0], criterion.removeprefix("Criterion: ")
 
 
-def _judged(function: Callable, ensemble: xr.Dataset) -> tuple[Estimate, str, str]:
+def _judged(function: Callable, ensemble: xr.Dataset) -> tuple[Part, str, str]:
     try:
         parts, note = function(ensemble)
         if not parts:
             raise NotAsked("points with at least two jammed samples in the range of the claim")
     except NotAsked as lacking:
-        return Estimate(np.nan, np.nan), NOT_ASKED, f"The ensemble lacks {lacking}."
+        nothing = Part("", Estimate(np.nan, np.nan))
+        return nothing, NOT_ASKED, f"The ensemble lacks {lacking}."
     severity = list(SENTENCE)
     worst = max(parts, key=lambda part: (severity.index(part.verdict), -part.inside))
-    return worst.estimate, worst.verdict, f"{_summary(parts, worst)} {note}".strip()
+    return worst, worst.verdict, f"{_summary(parts, worst)} {note}".strip()
 
 
 def _summary(parts: list[Part], worst: Part) -> str:

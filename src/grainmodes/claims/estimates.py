@@ -51,7 +51,8 @@ def jackknife(statistic: Callable[..., float], *rows: np.ndarray) -> Estimate:
 
 def relative_difference(values: np.ndarray, reference: np.ndarray) -> Estimate:
     """(mean of values - mean of reference) / mean of reference, paired by seed."""
-    return jackknife(lambda a, b: (a - b).mean() / b.mean(), values, reference)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return jackknife(lambda a, b: (a - b).mean() / b.mean(), values, reference)
 
 
 def crossing(kappas: np.ndarray, rows: np.ndarray) -> Estimate:

@@ -117,7 +117,8 @@ def complex_pairs_with_friction(ensemble) -> Outcome:
     )
     having = np.where(jammed == 1, pairs > 0, np.nan)
     known = np.isfinite(having)
-    share = np.where(known.any(axis=0), np.nansum(having, axis=0) / known.sum(axis=0), np.nan)
+    with np.errstate(invalid="ignore"):
+        share = np.nansum(having, axis=0) / known.sum(axis=0)
     most = np.nanmax(np.where(known, pairs, 0))
     note = (
         f"{np.nansum(having):.0f} of {known.sum()} states have pairs, at most {most:.0f} of them."

@@ -30,7 +30,7 @@ def as_markdown(verdicts: list[Verdict]) -> str:
     head = (
         "| claim | statement | measured | criterion | verdict |\n| --- | --- | --- | --- | --- |\n"
     )
-    rows = [(v.claim, v.statement, _measured(v), v.criterion, v.verdict) for v in verdicts]
+    rows = [(v.claim, v.statement, _named(v), v.criterion, v.verdict) for v in verdicts]
     table = "".join(f"| {' | '.join(map(_cell, row))} |\n" for row in rows)
     found = "".join(f"\n**{v.claim}, {v.verdict}.** {_cell(v.explanation)}\n" for v in verdicts)
     return f"# Claims of paper A\n\n{_counts(verdicts)}\n\n{head}{table}{found}"
@@ -49,17 +49,27 @@ FORMS: dict[str, Callable[[list[Verdict]], str]] = {".md": as_markdown, ".csv": 
 """Suffix of a file → what stands in it."""
 
 
-def write(verdicts: list[Verdict], path: Path) -> None:
-    """Write a page or a table, by the suffix of `path`.
+def form(path: Path) -> Callable[[list[Verdict]], str]:
+    """What stands in a file, by its suffix.
 
     Raises:
         ValueError: the suffix is neither .md nor .csv.
-        OSError: the file cannot be written.
     """
     if path.suffix not in FORMS:
         raise ValueError(f"{path}: the suffix is {path.suffix!r}, allowed are {', '.join(FORMS)}")
+    return FORMS[path.suffix]
+
+
+def write(verdicts: list[Verdict], path: Path) -> None:
+    """Write a page or a table: all of it or nothing.
+
+    Raises:
+        ValueError: as `form`.
+        OSError: the file cannot be written.
+    """
+    content = form(path)(verdicts)
     with replaced(path) as partial:
-        partial.write_text(FORMS[path.suffix](verdicts), encoding="utf-8")
+        partial.write_text(content, encoding="utf-8")
 
 
 def _measured(verdict: Verdict) -> str:
@@ -67,6 +77,10 @@ def _measured(verdict: Verdict) -> str:
         return "-"
     unit = "" if verdict.unit == "1" else f" {verdict.unit}"
     return f"{verdict.measured:.3g} ± {verdict.uncertainty:.1g}{unit}"
+
+
+def _named(verdict: Verdict) -> str:
+    return f"{verdict.where}: {_measured(verdict)}" if verdict.where else _measured(verdict)
 
 
 def _cell(text: str) -> str:

@@ -41,9 +41,11 @@ class Samples:
     ) -> list[tuple[float, float]]:
         """(phi, kappa), ascending, with samples of a variable and k_T/k_N in [low, high]."""
         rows = self.ensemble[name].sel(n=self.n)
-        first = rows.isel({axis: 0 for axis in rows.dims if axis not in ("phi", "kt", "seed")})
+        known = rows.notnull().any(
+            [axis for axis in rows.dims if axis not in ("phi", "kt", "seed")]
+        )
         here = self.ensemble.sel(n=self.n)
-        used = first.notnull() & (here["converged"] == 1) & (here["jammed"] == 1)
+        used = known & (here["converged"] == 1) & (here["jammed"] == 1)
         enough = used.sum("seed").transpose("phi", "kt").to_numpy() >= FEWEST
         phi, kappa = (self.ensemble[axis].to_numpy().tolist() for axis in ("phi", "kt"))
         found = [(phi[i], kappa[j]) for i, j in zip(*np.nonzero(enough), strict=True)]

@@ -30,7 +30,7 @@ from grainmodes.claims.bands import (
     per_sample,
     with_modes,
 )
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, every, text
 from grainmodes.claims.estimates import Estimate, jackknife, mean, relative_difference
 from grainmodes.claims.samples import Samples, at, largest
 
@@ -113,13 +113,19 @@ def gap_overlap_merger(ensemble) -> Outcome:
     """
     samples, phi, spectra = _spectra(ensemble)
     gaps = {kappa: _gap(of) for kappa, of in spectra.items()}
-    parts = [Part(f"gap at {at(phi, k)}", gaps[k], 0.0) for k in _within(gaps, *SEPARATE)]
-    parts += [Part(f"gap at {at(phi, k)}", gaps[k], high=0.0) for k in _within(gaps, *OVERLAP)]
-    parts += [
-        Part(f"share at {at(phi, kappa)}", _share_above(of), PURE)
-        for kappa, of in _within(spectra, *MERGED).items()
-    ]
-    return Outcome(parts, _gap_and_size(samples.n, _within(gaps, *OVERLAP)))
+    parts = {
+        "k_T/k_N in 1e-10 ... 1e-8": [
+            Part(f"gap at {at(phi, k)}", gaps[k], 0.0) for k in _within(gaps, *SEPARATE)
+        ],
+        "k_T/k_N in 1e-6 ... 1e-2": [
+            Part(f"gap at {at(phi, k)}", gaps[k], high=0.0) for k in _within(gaps, *OVERLAP)
+        ],
+        "k_T/k_N ≥ 1": [
+            Part(f"share at {at(phi, k)}", _share_above(of), PURE)
+            for k, of in _within(spectra, *MERGED).items()
+        ],
+    }
+    return Outcome(every(parts), _gap_and_size(samples.n, _within(gaps, *OVERLAP)))
 
 
 def _gap(of: Modes) -> Estimate:
@@ -151,15 +157,17 @@ def peak_and_collapse(ensemble) -> Outcome:
     _, phi, spectra = _spectra(ensemble)
     scaled = {k: of.frequency / np.sqrt(k) for k, of in _within(spectra, TINY, SCALING).items()}
     peaks = {kappa: mean(_peak(x)) for kappa, x in scaled.items()}
-    parts = [Part(f"peak at {at(phi, k)}", peak, 0.5, 2.0) for k, peak in peaks.items()]
     counts = {kappa: _counts(x) for kappa, x in scaled.items()}
-    first = next(iter(counts), None)
-    parts += [
-        Part(f"area at {at(phi, kappa)}", _area_between(of, counts[first]), high=0.1)
-        for kappa, of in counts.items()
-        if kappa != first
-    ]
-    return Outcome(parts, _peaks_and_chi_squared(peaks, counts))
+    parts = {
+        "k_T/k_N ≤ 0.01": [
+            Part(f"peak at {at(phi, k)}", peak, 0.5, 2.0) for k, peak in peaks.items()
+        ],
+        "two k_T/k_N ≤ 0.01": [
+            Part(f"area at {at(phi, k)}", _area_between(counts[k], counts[min(counts)]), high=0.1)
+            for k in sorted(counts)[1:]
+        ],
+    }
+    return Outcome(every(parts), _peaks_and_chi_squared(peaks, counts))
 
 
 def _peak(scaled: np.ndarray) -> np.ndarray:
@@ -259,25 +267,38 @@ def _shift(band: np.ndarray, reference: np.ndarray) -> float:
 
 @claim("A13", unit="1")
 def localised_rattlers(ensemble) -> Outcome:
-    """Modes of rattlers have p ≈ 1/N and lie at ωt_0 ≈ 1e-5 (κ = 1e-8), 1e-3 (κ = 1e-4) (Fig. 14).
+    """Modes of rattlers have p ≈ 1/N, at ωt_0 ≈ 1e-5 for k_T/k_N = 1e-8, 1e-3 for 1e-4 (Fig. 14).
 
-    Spectra with rattlers kept: N p of the modes with ω/ω_R within half a decade of 0.1, and log10
-    of the median ω/ω_R of the modes with N p < 2 in Region I.
+    Both frequencies are ω_R / 10. Of the modes that a spectrum has only with its rattlers kept, the
+    share that has N p < 2 and ω within half a decade of ω_R / 10; all φ of a seed together.
 
-    Criterion: N p is below 2, and the median lies within half a decade of 0.1.
+    Criterion: the share is above one half.
     """
-    samples = largest(ensemble, "eigenvalue_rattlers", "participation_ratio_rattlers")
-    phi, _ = samples.points("eigenvalue_rattlers", TINY)[-1]
-    parts = []
-    for kappa in samples.kappas("eigenvalue_rattlers", phi, 1e-8, 1e-4):
-        eigenvalue = samples.of("eigenvalue_rattlers", phi, kappa)
-        x = statistics.frequencies(eigenvalue).frequency / np.sqrt(kappa)
-        grains = samples.n * samples.of("participation_ratio_rattlers", phi, kappa)
-        near = np.abs(np.log10(x) + 1.0) < 0.5
-        single = np.where((grains < LOCALISED) & (x < REGION), x, np.nan)
-        parts += [Part(f"N p at {at(phi, kappa)}", mean_in(grains, near), high=LOCALISED)]
-        parts += [Part(f"log10 ω/ω_R at {at(phi, kappa)}", mean(median_log(single)), -1.5, -0.5)]
-    return Outcome(parts)
+    names = ("eigenvalue_rattlers", "participation_ratio_rattlers", "mode_count_rattlers")
+    samples = largest(ensemble, *names, "mode_count")
+    parts, zero, added = [], 0.0, 0.0
+    for kappa in samples.kappas(names[0], low=LIMIT, high=1e-4):
+        near, vanishing, of_rattlers = np.nansum(
+            [_rattler_modes(samples, phi, kappa) for phi in samples.phis(names[0], kappa)], axis=0
+        )
+        share = np.divide(near, of_rattlers, np.full_like(near, np.nan), where=of_rattlers > 0)
+        parts.append(Part(f"share at {at(kappa=kappa)}", mean(share), 0.5))
+        zero, added = zero + vanishing.sum(), added + of_rattlers.sum()
+    note = f"Of {added:.0f} modes of rattlers {zero:.0f} are zero modes, whose p is not defined."
+    return Outcome(parts, note)
+
+
+def _rattler_modes(samples: Samples, phi: float, kappa: float) -> np.ndarray:
+    """Of each sample, (3, S): localised modes near ω_R / 10, zero modes, modes of rattlers."""
+    eigenvalue, participation, count = (
+        samples.of(f"{name}_rattlers", phi, kappa)
+        for name in ("eigenvalue", "participation_ratio", "mode_count")
+    )
+    found = statistics.frequencies(eigenvalue)
+    decades = np.abs(np.log10(found.frequency / np.sqrt(kappa)) + 1.0)
+    near = ((decades < 0.5) & (samples.n * participation < LOCALISED)).sum(axis=1)
+    zero = np.maximum(found.zero - statistics.TRANSLATIONS, 0)
+    return np.array([near, zero, count - samples.of("mode_count", phi, kappa)])
 
 
 @claim("A14", unit="1")

@@ -1,4 +1,6 @@
-"""Commands that collect: blocks into a point, points into an ensemble, an ensemble into figures."""
+"""Commands that collect: blocks into a point, points into an ensemble, an ensemble into figures
+and verdicts on the claims of the paper.
+"""
 
 from __future__ import annotations
 
@@ -27,3 +29,18 @@ def figure(arguments: Namespace) -> None:
     asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "fineness")}
     options = {name: value for name, value in asked.items() if value is not None}
     draw(arguments.figure, arguments.ensemble, arguments.output, options)
+
+
+def claims(arguments: Namespace) -> None:
+    """An ensemble → the verdict on every claim."""
+    from grainmodes.claims import check, report
+    from grainmodes.ensemble import open_ensemble
+
+    for path in arguments.outputs:
+        report.form(path)
+    with open_ensemble(arguments.ensemble) as opened:
+        verdicts = check(opened)
+    for path in arguments.outputs:
+        report.write(verdicts, path)
+    if not arguments.outputs:
+        print(report.as_text(verdicts), end="")
