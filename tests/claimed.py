@@ -39,7 +39,7 @@ def set_moduli(dataset: xr.Dataset, g: xr.DataArray) -> None:
     dataset["g_forward_by_strain"] = g * steps
 
 
-def bins_of(dataset: xr.Dataset, size: int = 400) -> xr.Dataset:
+def bins_of(dataset: xr.Dataset, size: int = 2000) -> xr.Dataset:
     """The same ensemble with counts in fine bins instead of eigenvalues."""
     edges = np.geomspace(1e-7, 10.0, size + 1)
     frequency = np.sqrt(np.where(dataset["eigenvalue"] > 1e-13, dataset["eigenvalue"], np.nan))

@@ -1,7 +1,8 @@
 """The modes of a point, split into the rotational band (psi^R > 1/2) and the translational band.
 
-Where an ensemble holds counts in bins instead of eigenvalues, the modes of a bin are spread over
-it evenly in log(omega), with the mean psi^R of the bin: what follows is then resolved to a bin.
+Where an ensemble holds counts in bins instead of eigenvalues, a bin of c modes with mean psi^R is
+read as c psi^R rotational modes and the rest translational, spread over it evenly in log(omega):
+right where modes are of one kind, and resolved to a bin.
 """
 
 from __future__ import annotations
@@ -83,13 +84,14 @@ def _from_bins(edges: np.ndarray, count: np.ndarray, psi: np.ndarray) -> Modes:
 
 
 def _spread(edges: np.ndarray, count: np.ndarray, psi: np.ndarray) -> np.ndarray:
-    """Frequencies and psi of one sample, (2, M)."""
+    """Frequencies and psi of one sample, (2, M); in a bin of both kinds the bands overlap."""
     filled = np.nonzero(count)[0]
     middles = [(np.arange(count[b]) + 0.5) / count[b] for b in filled]
+    kinds = [(m > 1.0 - psi[b]).astype(float) for b, m in zip(filled, middles, strict=True)]
     steps = [
         edges[b] * (edges[b + 1] / edges[b]) ** m for b, m in zip(filled, middles, strict=True)
     ]
-    return np.array([np.concatenate([[], *steps]), np.repeat(psi, count)])
+    return np.array([np.concatenate([[], *steps]), np.concatenate([[], *kinds])])
 
 
 def per_sample(statistic, *bands: np.ndarray) -> np.ndarray:

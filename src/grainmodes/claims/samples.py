@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 FEWEST = 2
 """Samples without which a point has no error, and is left out."""
 
+POINT = ("phi", "kt", "seed")
+"""Dimensions of a number per sample, at one N."""
+
 ROUNDING = 1.000001
 """Factor by which a k_T of the grid may miss the end of a range."""
 
@@ -32,21 +35,17 @@ class Samples:
 
     def of(self, name: str, phi: float, kappa: float) -> np.ndarray:
         """A variable at one point: (S,), or (S, ...) with its further dimensions."""
-        point = self.ensemble.sel(n=self.n, phi=phi, kt=kappa)
-        used = (point["converged"] == 1) & (point["jammed"] == 1)
-        return point[name].where(used).transpose("seed", ...).to_numpy()
+        place = {"phi": self._place("phi", phi), "kt": self._place("kt", kappa)}
+        rows = self._rows(name).isel(place).transpose("seed", ...)
+        return rows.where(self._used().isel(place)).to_numpy()
 
     def points(
         self, name: str, low: float = 0.0, high: float = np.inf
     ) -> list[tuple[float, float]]:
         """(phi, kappa), ascending, with samples of a variable and k_T/k_N in [low, high]."""
-        rows = self.ensemble[name].sel(n=self.n)
-        known = rows.notnull().any(
-            [axis for axis in rows.dims if axis not in ("phi", "kt", "seed")]
-        )
-        here = self.ensemble.sel(n=self.n)
-        used = known & (here["converged"] == 1) & (here["jammed"] == 1)
-        enough = used.sum("seed").transpose("phi", "kt").to_numpy() >= FEWEST
+        rows = self._rows(name)
+        known = rows.notnull().any([axis for axis in rows.dims if axis not in POINT])
+        enough = (known & self._used()).sum("seed").transpose("phi", "kt").to_numpy() >= FEWEST
         phi, kappa = (self.ensemble[axis].to_numpy().tolist() for axis in ("phi", "kt"))
         found = [(phi[i], kappa[j]) for i, j in zip(*np.nonzero(enough), strict=True)]
         return [point for point in found if low / ROUNDING <= point[1] <= high * ROUNDING]
@@ -60,6 +59,16 @@ class Samples:
     ) -> list[float]:
         """Values of k_T/k_N in [low, high] with samples, at one φ or any; ascending."""
         return sorted({of for here, of in self.points(name, low, high) if phi in (None, here)})
+
+    def _rows(self, name: str) -> xr.Variable:
+        # a Variable carries no coordinates to align, which would take most of the time
+        return self.ensemble[name].variable.isel(n=self._place("n", self.n))
+
+    def _used(self) -> xr.Variable:
+        return (self._rows("converged") == 1) & (self._rows("jammed") == 1)
+
+    def _place(self, axis: str, value: float) -> int:
+        return self.ensemble[axis].to_numpy().tolist().index(value)
 
 
 def largest(ensemble: xr.Dataset, *names: str) -> Samples:
