@@ -15,7 +15,7 @@ from grainmodes import statistics
 from grainmodes.binning import occupation
 from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
 from grainmodes.claims.estimates import Estimate, jackknife, mean
-from grainmodes.claims.samples import Samples, at, largest
+from grainmodes.claims.samples import TINY, Samples, at, largest
 
 SAME_DENSITY = 0.05
 """Area between two densities of states, over the area below one, that a figure does not show."""
@@ -110,7 +110,7 @@ def complex_pairs_with_friction(ensemble) -> Outcome:
     Criterion: above one half.
     """
     samples = largest(ensemble, "complex_pairs_frictional", "jammed_frictional")
-    points = samples.points("complex_pairs_frictional")
+    points = samples.points("complex_pairs_frictional", TINY)
     pairs, jammed = (
         np.array([samples.of(name, *point) for point in points])
         for name in ("complex_pairs_frictional", "jammed_frictional")

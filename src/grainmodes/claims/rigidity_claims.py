@@ -17,16 +17,13 @@ import numpy as np
 
 from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, every, text
 from grainmodes.claims.estimates import Estimate, crossing, mean, relative_difference
-from grainmodes.claims.samples import Samples, at, largest
+from grainmodes.claims.samples import TINY, Samples, at, largest
 
 SMALL = 1e-4
 """k_T/k_N up to which A finds no influence of k_T (Fig. 5)."""
 
 LARGE = 1.0
 """k_T/k_N from which on A's bands are one; "large" where A says so without a number."""
-
-TINY = 1e-300
-"""Lower end of "every k_T > 0"."""
 
 SAME = 0.01
 """Relative difference of two moduli that a figure of A does not show."""

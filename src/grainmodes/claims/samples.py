@@ -22,6 +22,9 @@ FEWEST = 2
 POINT = ("phi", "kt", "seed")
 """Dimensions of a number per sample, at one N."""
 
+TINY = 1e-300
+"""Lower end of "every k_T > 0"."""
+
 ROUNDING = 1.000001
 """Factor by which a k_T of the grid may miss the end of a range."""
 

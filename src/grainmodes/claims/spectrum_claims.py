@@ -32,10 +32,7 @@ from grainmodes.claims.bands import (
 )
 from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, every, text
 from grainmodes.claims.estimates import Estimate, jackknife, mean, relative_difference
-from grainmodes.claims.samples import Samples, at, largest
-
-TINY = 1e-300
-"""Lower end of "every k_T > 0"."""
+from grainmodes.claims.samples import TINY, Samples, at, largest
 
 REGION = 2.0
 """omega / omega_R between Regions I and II."""
