@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grainmodes.claims import method_claims, rigidity_claims, spectrum_claims
+from grainmodes.claims import band_claims, method_claims, rigidity_claims, spectrum_claims
 from grainmodes.claims.claim import Claim, Verdict
 
 CLAIMS: tuple[Claim, ...] = (
@@ -12,11 +12,11 @@ CLAIMS: tuple[Claim, ...] = (
     rigidity_claims.frictionless_limit,
     rigidity_claims.no_factorisation,
     rigidity_claims.nonaffine_sign_change,
-    spectrum_claims.pure_regions,
-    spectrum_claims.gap_overlap_merger,
-    spectrum_claims.peak_and_collapse,
-    spectrum_claims.area_of_rotational_band,
-    spectrum_claims.frictionless_band,
+    band_claims.pure_regions,
+    band_claims.gap_overlap_merger,
+    band_claims.peak_and_collapse,
+    band_claims.area_of_rotational_band,
+    band_claims.frictionless_band,
     method_claims.hessian_density,
     spectrum_claims.localised_rattlers,
     spectrum_claims.independent_of_size,
