@@ -251,6 +251,15 @@ def test_points_that_the_grid_lacks_are_named(grid, names, lack):
         assert lack in found[name].explanation
 
 
+@pytest.mark.parametrize(
+    "grid", [{"kt": [0.0]}, {"kt": [10.0]}, {"phi": [0.90], "kt": [1e-8]}, {"seed": [0]}]
+)
+def test_an_ensemble_of_few_points_has_no_verdict_against_a_claim(grid):
+    found = check(claimed.ensemble().sel(grid))
+    assert [verdict.claim for verdict in found] == NAMES
+    assert CONTRADICTED not in {verdict.verdict for verdict in found}
+
+
 def test_points_that_were_not_computed_change_no_verdict():
     ensemble = claimed.ensemble()
     larger = ensemble.reindex(n=[32, 64, 128], phi=[0.86, 0.87, 0.88, 0.90])

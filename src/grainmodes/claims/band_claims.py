@@ -55,7 +55,7 @@ LIMIT = 1e-8
 def _spectra(ensemble) -> tuple[Samples, float, dict[float, Modes]]:
     """The largest N with spectra, its largest φ, and the modes of every k_T > 0 there."""
     samples = with_modes(ensemble)[-1]
-    phi, _ = samples.points(kind(ensemble)[1], TINY)[-1]
+    phi = samples.phis(kind(ensemble)[1])[-1]
     kappas = samples.kappas(kind(ensemble)[1], phi, TINY)
     return samples, phi, {kappa: modes(samples, phi, kappa) for kappa in kappas}
 
@@ -210,10 +210,10 @@ def area_of_rotational_band(ensemble) -> Outcome:
     """
     samples, phi, spectra = _spectra(ensemble)
     areas = {kappa: _rotational_count(of) for kappa, of in spectra.items()}
-    first = next(iter(areas))
+    scaled = sorted(_within(areas, TINY, SCALING))
     parts = [
-        Part(at(phi, kappa), relative_difference(areas[kappa], areas[first]), -0.05, 0.05)
-        for kappa in _within(areas, 2 * first, SCALING)
+        Part(at(phi, kappa), relative_difference(areas[kappa], areas[scaled[0]]), -0.05, 0.05)
+        for kappa in scaled[1:]
     ]
     shares = ", ".join(
         f"{text(mean(area / (3 * samples.n)))} at κ = {k:g}" for k, area in areas.items()

@@ -111,6 +111,8 @@ def complex_pairs_with_friction(ensemble) -> Outcome:
     """
     samples = largest(ensemble, "complex_pairs_frictional", "jammed_frictional")
     points = samples.points("complex_pairs_frictional", TINY)
+    if not points:
+        raise NotAsked("states compressed with a k_T > 0")
     pairs, jammed = (
         np.array([samples.of(name, *point) for point in points])
         for name in ("complex_pairs_frictional", "jammed_frictional")

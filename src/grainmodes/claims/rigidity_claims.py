@@ -78,7 +78,10 @@ def not_proportional_to_distance(ensemble) -> Outcome:
     Criterion: |β - 1| > 0.1 at every k_T/k_N ≥ 1.
     """
     samples = largest(ensemble, "g", "phi_jamming")
-    exponents = {kappa: _exponent(samples, kappa) for kappa in samples.kappas("g")}
+    enough = [k for k in samples.kappas("g") if len(samples.phis("g", k)) >= FEWEST_PHI]
+    if not enough:
+        raise NotAsked(f"{FEWEST_PHI} area fractions with jammed samples")
+    exponents = {kappa: _exponent(samples, kappa) for kappa in enough}
     parts = [
         Part(at(kappa=kappa), Estimate(abs(beta.value - 1.0), beta.error), 0.1)
         for kappa, beta in exponents.items()
@@ -91,8 +94,6 @@ def not_proportional_to_distance(ensemble) -> Outcome:
 def _exponent(samples: Samples, kappa: float) -> Estimate:
     """Mean over seeds of d log G / d log(φ - φ_c), from at least three φ of a seed."""
     phis = samples.phis("g", kappa)
-    if len(phis) < FEWEST_PHI:
-        raise NotAsked(f"{FEWEST_PHI} area fractions with jammed samples")
     distance = np.array([phi - samples.of("phi_jamming", phi, kappa) for phi in phis])
     moduli = np.array([samples.of("g", phi, kappa) for phi in phis])
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -168,11 +169,19 @@ def no_factorisation(ensemble) -> Outcome:
     if len(phis) < 2:
         raise NotAsked("k_T = 0 at two area fractions with jammed samples")
     parts, ends = [], (phis[0], phis[-1])
-    for kappa in samples.kappas("g", phis[-1], LARGE):
+    for kappa in _common(samples, "g", ends, LARGE):
         low, high = (_log_gain(samples, phi, kappa) for phi in ends)
         change = mean(low - high)
         parts.append(Part(at(kappa=kappa), Estimate(abs(change.value), change.error), 0.05))
     return Outcome(parts, _gains(samples, ends))
+
+
+def _common(
+    samples: Samples, name: str, phis: tuple[float, float], low: float = 0.0
+) -> list[float]:
+    """Values of k_T/k_N from `low` on at which a variable has samples at both φ."""
+    first, last = (samples.kappas(name, phi, low) for phi in phis)
+    return [kappa for kappa in first if kappa in last]
 
 
 def _log_gain(samples: Samples, phi: float, kappa: float) -> np.ndarray:
@@ -208,15 +217,16 @@ def nonaffine_sign_change(ensemble) -> Outcome:
             Part(f"crossing at {at(phi)}", zero, *CROSSING) for phi, zero in zeros.items()
         ],
         "two area fractions": [
-            _growth(samples, kappa, phis) for kappa in _ends(samples) if len(phis) > 1
+            _growth(samples, kappa, phis) for kappa in _ends(samples, phis) if len(phis) > 1
         ],
     }
     return Outcome(every(parts), f"{_crossings(zeros)} {_loading(samples)}")
 
 
-def _ends(samples: Samples) -> list[float]:
-    kappas = samples.kappas("g_nonaffine")
-    return [kappas[0], kappas[-1]]
+def _ends(samples: Samples, phis: list[float]) -> list[float]:
+    """The smallest and the largest k_T with samples at the lowest and at the highest φ."""
+    kappas = _common(samples, "g_nonaffine", (phis[0], phis[-1]))
+    return [kappas[0], kappas[-1]] if kappas else []
 
 
 def _ends_around_two(samples: Samples, phi: float) -> bool:

@@ -104,10 +104,10 @@ def towards_jamming(ensemble) -> Outcome:
     """
     samples = with_modes(ensemble)[-1]
     psi = kind(ensemble)[1]
-    kappa = samples.points(psi, TINY)[0][1]
+    kappa = min(samples.kappas(psi, low=TINY), default=0.0)
     phis = samples.phis(psi, kappa)
-    if len(phis) < 2:
-        raise NotAsked("spectra at two area fractions with jammed samples")
+    if len(phis) < 2 or kappa == 0.0:
+        raise NotAsked("spectra at two area fractions and one k_T > 0, with jammed samples")
     low, high = (modes(samples, phi, kappa) for phi in (phis[0], phis[-1]))
     down = mean(median_log(high.rotational) - median_log(low.rotational))
     wider = mean(_width(low.translational) - _width(high.translational))
