@@ -41,7 +41,7 @@ def parser() -> argparse.ArgumentParser:
     commands = top.add_subparsers(dest="name", metavar="COMMAND", required=True)
     for define in (_compress, _pack, _rigidity, _step_strain, _spectrum, _fields, _probes, _point):
         define(commands)
-    for define in (_gather, _ensemble, _figure, _show, _cost):
+    for define in (_gather, _ensemble, _figure, _claims, _show, _cost):
         define(commands)
     return top
 
@@ -166,6 +166,21 @@ def _figure(commands) -> None:
     command.add_argument("--kt", type=float, nargs="+", help="the tangential stiffnesses to show")
     command.add_argument("--fineness", type=float, help="factor on the numbers of linear bins")
     _output(command, "path without suffix; .png, .pdf and .csv are written")
+
+
+def _claims(commands) -> None:
+    sentence = "Check the claims A1 to A19 of paper A on an ensemble."
+    command = _command(commands, "claims", "collections:claims", sentence)
+    command.add_argument("ensemble", type=Path, help="file of `grainmodes ensemble`")
+    command.add_argument(
+        "-o",
+        "--outputs",
+        type=Path,
+        nargs="+",
+        default=[],
+        metavar="FILE",
+        help="pages (.md) and tables (.csv) to write; without any, a table is printed",
+    )
 
 
 def _show(commands) -> None:

@@ -1,4 +1,6 @@
-"""Commands that collect: blocks into a point, points into an ensemble, either into figures."""
+"""Commands that collect: blocks into a point, points into an ensemble, either into figures, and an
+ensemble into verdicts on the claims of the paper.
+"""
 
 from __future__ import annotations
 
@@ -41,3 +43,18 @@ def _source(arguments: Namespace) -> Path | list[Path]:
             f"{arguments.figure} is drawn from one ensemble, not {len(arguments.data)}"
         )
     return arguments.data[0]
+
+
+def claims(arguments: Namespace) -> None:
+    """An ensemble → the verdict on every claim."""
+    from grainmodes.claims import check, report
+    from grainmodes.ensemble import open_ensemble
+
+    for path in arguments.outputs:
+        report.form(path)
+    with open_ensemble(arguments.ensemble) as opened:
+        verdicts = check(opened)
+    for path in arguments.outputs:
+        report.write(verdicts, path)
+    if not arguments.outputs:
+        print(report.as_text(verdicts), end="")

@@ -1,0 +1,128 @@
+"""Claims of paper A on its methods: A12, A18 and A19.
+
+symbol  name                                                     paper A
+D, D_H  bin_count, bin_count_hessian over the same bins          Eq. 23, App. H
+J, H    hessian_difference = max|H - J| / max|J|                 Eq. 18, App. H
+q, q̇    verlet_order_position, verlet_order_velocity             App. B
+M⁻¹J    complex_pairs_frictional, jammed_frictional              footnote 1
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes import statistics
+from grainmodes.binning import occupation
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
+from grainmodes.claims.estimates import Estimate, jackknife, mean
+from grainmodes.claims.samples import TINY, Samples, at, largest
+
+SAME_DENSITY = 0.05
+"""Area between two densities of states, over the area below one, that a figure does not show."""
+
+ORDERS = {"position": 2.0, "velocity": 1.0}
+"""Orders of velocity Verlet that A finds (App. B)."""
+
+
+@claim("A12", unit="1")
+def hessian_density(ensemble) -> Outcome:
+    """The density of states D of the Jacobian is that of the effective Hessian, D_H (Fig. 12).
+
+    Sum over bins of |counts of D - counts of D_H|, over all counts, averaged over samples; without
+    counts max|H - J| / max|J|.
+
+    Criterion: below 5 %.
+    """
+    if "bin_count_hessian" in ensemble:
+        return _densities(ensemble)
+    if "hessian_difference" not in ensemble:
+        raise NotAsked("bin_count_hessian and hessian_difference")
+    samples = largest(ensemble, "hessian_difference")
+    parts = [
+        Part(at(*p), mean(samples.of("hessian_difference", *p)), high=SAME_DENSITY)
+        for p in samples.points("hessian_difference")
+    ]
+    return Outcome(parts, "Compared are the matrices, with tangent stiffnesses in H.")
+
+
+def _densities(ensemble) -> Outcome:
+    samples = largest(ensemble, "bin_count_hessian", "bin_edge")
+    points = samples.points("bin_count_hessian")
+    parts = [
+        Part(at(*p), _area(samples, "bin_count_hessian", p), high=SAME_DENSITY) for p in points
+    ]
+    if "bin_count_hessian_printed" not in ensemble:
+        return Outcome(parts)
+    printed = {p: _area(samples, "bin_count_hessian_printed", p) for p in points}
+    listed = ", ".join(f"{text(area)} at {at(*point)}" for point, area in printed.items())
+    return Outcome(parts, f"With k_N and k_T as printed in (H2) the area is {listed}.")
+
+
+def _area(samples: Samples, name: str, point: tuple) -> Estimate:
+    def area(counts: np.ndarray, hessian: np.ndarray) -> float:
+        return np.abs(counts.mean(axis=0) - hessian.mean(axis=0)).sum() / counts.mean(axis=0).sum()
+
+    return jackknife(area, _counts(samples, point), samples.of(name, *point))
+
+
+def _counts(samples: Samples, point: tuple) -> np.ndarray:
+    """Modes of the Jacobian in the bins of the Hessian, (S, B)."""
+    if "bin_count" in samples.ensemble:
+        return samples.of("bin_count", *point)
+    if "eigenvalue" not in samples.ensemble:
+        raise NotAsked("bin_count or eigenvalue")
+    frequency = statistics.frequencies(samples.of("eigenvalue", *point)).frequency
+    edges = samples.of("bin_edge", *point)
+    rows = [occupation(row[None], of)[0] for row, of in zip(frequency, edges, strict=True)]
+    return np.where(np.isfinite(edges[:, 1:]), rows, np.nan)
+
+
+@claim("A18", unit="1")
+def verlet_orders(ensemble) -> Outcome:
+    """Velocity Verlet with forces that depend on velocity is of order 2 in q and 1 in q̇ (App. B).
+
+    Measured orders, averaged over samples, at every point.
+
+    Criterion: 1.8 ... 2.2 in q, 0.8 ... 1.2 in q̇.
+    """
+    names = {kind: f"verlet_order_{kind}" for kind in ORDERS}
+    samples = largest(ensemble, *names.values())
+    parts = [
+        Part(
+            f"{kind} at {at(*p)}",
+            mean(samples.of(name, *p)),
+            ORDERS[kind] - 0.2,
+            ORDERS[kind] + 0.2,
+        )
+        for kind, name in names.items()
+        for p in samples.points(name)
+    ]
+    return Outcome(parts)
+
+
+@claim("A19", unit="1")
+def complex_pairs_with_friction(ensemble) -> Outcome:
+    """States compressed with friction have complex pairs of eigenvalues of M⁻¹J (footnote 1).
+
+    Share of the jammed states compressed with friction that have at least one pair, all points of
+    a seed together.
+
+    Criterion: above one half.
+    """
+    samples = largest(ensemble, "complex_pairs_frictional", "jammed_frictional")
+    points = samples.points("complex_pairs_frictional", TINY)
+    if not points:
+        raise NotAsked("states compressed with a k_T > 0")
+    pairs, jammed = (
+        np.array([samples.of(name, *point) for point in points])
+        for name in ("complex_pairs_frictional", "jammed_frictional")
+    )
+    having = np.where(jammed == 1, pairs > 0, np.nan)
+    known = np.isfinite(having)
+    with np.errstate(invalid="ignore"):
+        share = np.nansum(having, axis=0) / known.sum(axis=0)
+    most = np.nanmax(np.where(known, pairs, 0))
+    note = (
+        f"{np.nansum(having):.0f} of {known.sum()} states have pairs, at most {most:.0f} of them."
+    )
+    return Outcome([Part("all points", mean(share), 0.5)], note)

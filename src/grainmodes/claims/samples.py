@@ -1,0 +1,105 @@
+"""The samples of an ensemble at one N, seed by seed.
+
+Rows are always those of the ensemble's seeds, NaN where a sample is not converged or not jammed, so
+that two arrays of one N belong to the same packings row by row.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from grainmodes.claims.claim import NotAsked
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+FEWEST = 2
+"""Samples without which a point has no error, and is left out."""
+
+POINT = ("phi", "kt", "seed")
+"""Dimensions of a number per sample, at one N."""
+
+TINY = 1e-300
+"""Lower end of "every k_T > 0"."""
+
+ROUNDING = 1.000001
+"""Factor by which a k_T of the grid may miss the end of a range."""
+
+
+@dataclass(frozen=True)
+class Samples:
+    """The samples of `n` grains."""
+
+    ensemble: xr.Dataset
+    n: int
+
+    def of(self, name: str, phi: float, kappa: float) -> np.ndarray:
+        """A variable at one point: (S,), or (S, ...) with its further dimensions."""
+        place = {"phi": self._place("phi", phi), "kt": self._place("kt", kappa)}
+        rows = self._rows(name).isel(place).transpose("seed", ...)
+        return rows.where(self._used().isel(place)).to_numpy()
+
+    def points(
+        self, name: str, low: float = 0.0, high: float = np.inf
+    ) -> list[tuple[float, float]]:
+        """(phi, kappa), ascending, with samples of a variable and k_T/k_N in [low, high]."""
+        rows = self._rows(name)
+        known = rows.notnull().any([axis for axis in rows.dims if axis not in POINT])
+        enough = (known & self._used()).sum("seed").transpose("phi", "kt").to_numpy() >= FEWEST
+        phi, kappa = (self.ensemble[axis].to_numpy().tolist() for axis in ("phi", "kt"))
+        found = [(phi[i], kappa[j]) for i, j in zip(*np.nonzero(enough), strict=True)]
+        return [point for point in found if low / ROUNDING <= point[1] <= high * ROUNDING]
+
+    def phis(self, name: str, kappa: float | None = None) -> list[float]:
+        """Area fractions at which a variable has samples, at one k_T or any; ascending."""
+        return sorted({phi for phi, of in self.points(name) if kappa in (None, of)})
+
+    def kappas(
+        self, name: str, phi: float | None = None, low: float = 0.0, high: float = np.inf
+    ) -> list[float]:
+        """Values of k_T/k_N in [low, high] with samples, at one φ or any; ascending."""
+        return sorted({of for here, of in self.points(name, low, high) if phi in (None, here)})
+
+    def _rows(self, name: str) -> xr.Variable:
+        # a Variable carries no coordinates to align, which would take most of the time
+        return self.ensemble[name].variable.isel(n=self._place("n", self.n))
+
+    def _used(self) -> xr.Variable:
+        return (self._rows("converged") == 1) & (self._rows("jammed") == 1)
+
+    def _place(self, axis: str, value: float) -> int:
+        return self.ensemble[axis].to_numpy().tolist().index(value)
+
+
+def largest(ensemble: xr.Dataset, *names: str) -> Samples:
+    """The samples of the largest N at which all the variables have some.
+
+    Raises:
+        NotAsked: the ensemble lacks one of the variables, or samples of them.
+    """
+    return sizes(ensemble, *names)[-1]
+
+
+def sizes(ensemble: xr.Dataset, *names: str) -> list[Samples]:
+    """The samples of every N at which all the variables have some, N ascending.
+
+    Raises:
+        NotAsked: as `largest`.
+    """
+    absent = [name for name in names if name not in ensemble]
+    if absent:
+        raise NotAsked(", ".join(absent))
+    found = [Samples(ensemble, n) for n in ensemble["n"].to_numpy().tolist()]
+    found = [samples for samples in found if all(samples.points(name) for name in names)]
+    if not found:
+        raise NotAsked(f"jammed samples with {', '.join(names)}")
+    return found
+
+
+def at(phi: float | None = None, kappa: float | None = None) -> str:
+    """The name of a point in an explanation."""
+    words = {"φ": phi, "κ": kappa}
+    return ", ".join(f"{name} = {value:g}" for name, value in words.items() if value is not None)

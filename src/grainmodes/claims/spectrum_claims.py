@@ -1,0 +1,124 @@
+"""Claims of paper A on what else shapes the density of states: A13 to A15.
+
+symbol    name                                          paper A
+omega     frequency = eigenvalue^(1/2)                  Sec. III A
+omega_R   (k_T/k_N)^(1/2) / t_0                         Sec. IV B
+p         participation_ratio                           Eq. E1
+N, phi    n, phi                                        App. I, App. J
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes import statistics
+from grainmodes.claims.bands import SHARES, Modes, kind, log_shares, median_log, modes, with_modes
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
+from grainmodes.claims.estimates import Estimate, mean
+from grainmodes.claims.samples import TINY, Samples, at, largest
+
+LIMIT = 1e-8
+"""k_T/k_N of A's Figs. 15 and 16, and of the first rattlers of Fig. 14."""
+
+LOCALISED = 2.0
+"""N p below which a mode sits on one grain."""
+
+
+@claim("A13", unit="1")
+def localised_rattlers(ensemble) -> Outcome:
+    """Modes of rattlers have p ≈ 1/N, at ωt_0 ≈ 1e-5 for k_T/k_N = 1e-8, 1e-3 for 1e-4 (Fig. 14).
+
+    Both frequencies are ω_R / 10. Of the modes that a spectrum has only with its rattlers kept, the
+    share that has N p < 2 and ω within half a decade of ω_R / 10; all φ of a seed together.
+
+    Criterion: the share is above one half.
+    """
+    names = ("eigenvalue_rattlers", "participation_ratio_rattlers", "mode_count_rattlers")
+    samples = largest(ensemble, *names, "mode_count")
+    parts, zero, added = [], 0.0, 0.0
+    for kappa in samples.kappas(names[0], low=LIMIT, high=1e-4):
+        near, vanishing, of_rattlers = np.nansum(
+            [_rattler_modes(samples, phi, kappa) for phi in samples.phis(names[0], kappa)], axis=0
+        )
+        share = np.divide(near, of_rattlers, np.full_like(near, np.nan), where=of_rattlers > 0)
+        parts.append(Part(f"share at {at(kappa=kappa)}", mean(share), 0.5))
+        zero, added = zero + vanishing.sum(), added + of_rattlers.sum()
+    note = f"Of {added:.0f} modes of rattlers {zero:.0f} are zero modes, whose p is not defined."
+    return Outcome(parts, note)
+
+
+def _rattler_modes(samples: Samples, phi: float, kappa: float) -> np.ndarray:
+    """Of each sample, (3, S): localised modes near ω_R / 10, zero modes, modes of rattlers."""
+    eigenvalue, participation, count = (
+        samples.of(f"{name}_rattlers", phi, kappa)
+        for name in ("eigenvalue", "participation_ratio", "mode_count")
+    )
+    found = statistics.frequencies(eigenvalue)
+    decades = np.abs(np.log10(found.frequency / np.sqrt(kappa)) + 1.0)
+    near = ((decades < 0.5) & (samples.n * participation < LOCALISED)).sum(axis=1)
+    zero = np.maximum(found.zero - statistics.TRANSLATIONS, 0)
+    return np.array([near, zero, count - samples.of("mode_count", phi, kappa)])
+
+
+@claim("A14", unit="1")
+def independent_of_size(ensemble) -> Outcome:
+    """D does not depend on N (Fig. 15).
+
+    log of ω at nine shares (0.1 ... 0.9) of each band, and of the share of rotational modes: the
+    difference between the smallest and the largest N that is largest among these, at the k_T/k_N
+    closest to 1e-8.
+
+    Criterion: each difference is below 5 %.
+    """
+    of_n = with_modes(ensemble)
+    psi = kind(ensemble)[1]
+    common = set.intersection(*(set(s.points(psi, TINY)) for s in (of_n[0], of_n[-1])))
+    if len(of_n) < 2 or not common:
+        raise NotAsked("spectra of two N at one φ and k_T")
+    point = max(common, key=lambda point: (point[0], -abs(np.log(point[1] / LIMIT))))
+    small, large = (modes(samples, *point) for samples in (of_n[0], of_n[-1]))
+    parts = [
+        Part(f"{band} ω at share {share:.1f}, {at(*point)}", difference, -0.05, 0.05)
+        for band in ("rotational", "translational")
+        for share, difference in zip(SHARES, _differences(small, large, band), strict=True)
+    ]
+    return Outcome(parts, f"Compared are N = {of_n[0].n} and N = {of_n[-1].n}.")
+
+
+def _differences(small: Modes, large: Modes, band: str) -> list[Estimate]:
+    """log omega of the large minus that of the small system at `SHARES`; no seed is shared."""
+    pairs = zip(*(log_shares(getattr(of, band)).T for of in (small, large)), strict=True)
+    estimates = [(mean(a), mean(b)) for a, b in pairs]
+    return [Estimate(b.value - a.value, np.hypot(a.error, b.error)) for a, b in estimates]
+
+
+@claim("A15", unit="decades")
+def towards_jamming(ensemble) -> Outcome:
+    """Towards jamming the rotational band moves down, the translational plateau widens (Fig. 16).
+
+    log10 of the median rotational ω at the highest φ over that at the lowest; and log10 of ω at
+    0.9 over ω at 0.1 of the translational band, lowest φ minus highest φ; paired by seed, at the
+    smallest k_T.
+
+    Criterion: both are above 0.
+    """
+    samples = with_modes(ensemble)[-1]
+    psi = kind(ensemble)[1]
+    kappa = min(samples.kappas(psi, low=TINY), default=0.0)
+    phis = samples.phis(psi, kappa)
+    if len(phis) < 2 or kappa == 0.0:
+        raise NotAsked("spectra at two area fractions and one k_T > 0, with jammed samples")
+    low, high = (modes(samples, phi, kappa) for phi in (phis[0], phis[-1]))
+    down = mean(median_log(high.rotational) - median_log(low.rotational))
+    wider = mean(_width(low.translational) - _width(high.translational))
+    where = f"φ = {phis[0]:g} against {phis[-1]:g}, {at(kappa=kappa)}"
+    return Outcome(
+        [Part(f"band, {where}", down, 0.0), Part(f"plateau, {where}", wider, 0.0)],
+        f"The rotational band moves by {text(down)}, the plateau widens by {text(wider)} decades.",
+    )
+
+
+def _width(band: np.ndarray) -> np.ndarray:
+    """log10 of omega at share 0.9 over omega at share 0.1 of each sample, (S,)."""
+    ends = log_shares(band, np.array([0.1, 0.9]))
+    return (ends[:, 1] - ends[:, 0]) / np.log(10.0)

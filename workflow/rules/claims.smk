@@ -1,0 +1,16 @@
+# The ensemble -> a verdict on every claim of paper A, as a page and as a table.
+
+
+rule claims:
+    input:
+        ensemble=rules.ensemble.output,
+        code=sources(
+            "grainmodes.claims", "grainmodes.claims.report", "grainmodes.ensemble:open_ensemble"
+        ),
+    output:
+        page=f"{STUDY}/claims.md",
+        table=f"{STUDY}/claims.csv",
+    message:
+        "Check the claims of paper A."
+    shell:
+        "grainmodes claims {input.ensemble} -o {output.page} {output.table}"
