@@ -30,6 +30,8 @@ class Variable(NamedTuple):
 
 
 BLOCK = ("seed",)
+MODES = ("seed", "mode")
+BINS = ("seed", "bin")
 FORCE = "k_N d^(3/2)"
 MODULUS = "k_N d^(1/2)"
 
@@ -114,6 +116,31 @@ VARIABLES: dict[str, Variable] = {
     "residual": Variable(BLOCK, "f8", "k_N d^(1/2)", "largest eigenpair residual |J v - lambda v|"),
     "g_mode_sum": Variable(BLOCK, "f8", MODULUS, "g as a sum over the modes"),
     "mode_count": Variable(BLOCK, "i8", "1", "number of modes: degrees of freedom of the backbone"),
+    # spectrum, counted in bins
+    "bin_edge": Variable(
+        ("seed", "edge"), "f8", "1/t_0", "edge of a bin of frequency; NaN: no such edge"
+    ),
+    "bin_count": Variable(BINS, "i8", "1", "number of modes in a bin"),
+    "modes_below": Variable(
+        BLOCK, "i8", "1", "number of modes below the first edge, zero modes included"
+    ),
+    "bin_psi_rotational": Variable(BINS, "f8", "1", "mean psi^R of the modes in a bin"),
+    "bin_psi_rotational_error": Variable(BINS, "f8", "1", "error of bin_psi_rotational"),
+    "bin_participation_ratio": Variable(BINS, "f8", "1", "mean p of the modes in a bin"),
+    "bin_participation_ratio_error": Variable(BINS, "f8", "1", "error of bin_participation_ratio"),
+    # spectrum, variants
+    "eigenvalue_rattlers": Variable(
+        MODES, "f8", "k_N d^(1/2)", "eigenvalue of the Jacobian with rattlers, ascending"
+    ),
+    "psi_rotational_rattlers": Variable(MODES, "f8", "1", "psi^R of a mode with rattlers"),
+    "participation_ratio_rattlers": Variable(MODES, "f8", "1", "p of a mode with rattlers"),
+    "mode_count_rattlers": Variable(BLOCK, "i8", "1", "number of modes with rattlers"),
+    "bin_count_hessian": Variable(
+        BINS, "i8", "1", "modes in a bin of the effective Hessian, tangent stiffnesses"
+    ),
+    "bin_count_hessian_printed": Variable(
+        BINS, "i8", "1", "modes in a bin of the effective Hessian, constants of A (H2)"
+    ),
 }
 """Every name that a block or an ensemble may hold."""
 

@@ -123,4 +123,4 @@ def lacking(figure: str, config: dict) -> list[str]:
         "modes": observables["spectrum"] == "modes",
         "friction": config["effects"]["friction"] and any(map(bool, config["grid"]["kt"])),
     }
-    return [name for name in FIGURES[figure].observables if not asked[name]]
+    return [name for name in FIGURES[figure].observables if not asked.get(name)]

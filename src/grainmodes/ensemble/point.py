@@ -1,7 +1,7 @@
 """All blocks of seeds and all observables of one point (n, phi, k_T), merged sample by sample.
 
 Each seed that stands in any block becomes one row, in the order of the seeds. A number is kept if
-there is one, or one per mode, in a sample; coordinates of grains stay in the packings.
+there is one, or one per mode or bin, in a sample; coordinates of grains stay in the packings.
 A sample is converged when every observable of the point has it converged; a seed that an
 observable lacks has there NaN (integers: 0), hence also converged = 0. Where two observables hold
 a name both, the first in the order of `STAGES` wins.
@@ -16,10 +16,17 @@ import numpy as np
 
 from grainmodes.dataset import VARIABLES, Block, BlockError, read_block
 
-STAGES = ("packings", "rigidity", "step_strain", "spectrum")
+STAGES = (
+    "packings",
+    "rigidity",
+    "step_strain",
+    "spectrum",
+    "spectrum_rattlers",
+    "spectrum_hessian",
+)
 """Values of the attribute `stage`, in the order in which names win."""
 
-PER_SAMPLE = (("seed",), ("seed", "mode"))
+PER_SAMPLE = (("seed",), ("seed", "mode"), ("seed", "bin"), ("seed", "edge"))
 """Dimensions of the variables that a point keeps."""
 
 

@@ -23,9 +23,10 @@ INTEGER_FILL = -1
 
 
 class Layout(NamedTuple):
-    """What the file has room for: values of the coordinates, and names of the variables."""
+    """What the file has room for: values of the coordinates, lengths of the bins, variables."""
 
     coordinates: dict[str, np.ndarray]
+    lengths: dict[str, int]
     names: list[str]
     code_version: str
 
@@ -78,19 +79,22 @@ def _coordinates(block: Block) -> tuple[int, float, float]:
 
 
 def _layout(paths: list[Path]) -> Layout:
-    grid, seeds, names, versions, modes = set(), set(), set(), set(), 0
+    grid, seeds, names, versions, lengths = set(), set(), set(), set(), {"mode": 0}
     for _, block in _points(paths):
         grid.add(_coordinates(block))
         seeds.update(block.variables["seed"].tolist())
         names.update(name for name in block.variables if name != "seed")
         versions.add(str(block.attributes["code_version"]))
-        modes = max(modes, *(a.shape[1] for a in block.variables.values() if a.ndim == 2), 0)
+        for name, array in block.variables.items():
+            if array.ndim == 2:
+                dimension = VARIABLES[name].dimensions[1]
+                lengths[dimension] = max(lengths.get(dimension, 0), array.shape[1])
     coordinates = {
         name: np.unique([point[axis] for point in grid]) for axis, name in enumerate(GRID)
     }
-    coordinates |= {"seed": np.array(sorted(seeds)), "mode": np.arange(modes)}
+    coordinates |= {"seed": np.array(sorted(seeds)), "mode": np.arange(lengths.pop("mode"))}
     in_table_order = [name for name in VARIABLES if name in names]
-    return Layout(coordinates, in_table_order, ", ".join(sorted(versions)))
+    return Layout(coordinates, lengths, in_table_order, ", ".join(sorted(versions)))
 
 
 def _define(file: netCDF4.Dataset, layout: Layout) -> None:
@@ -98,6 +102,8 @@ def _define(file: netCDF4.Dataset, layout: Layout) -> None:
         file.createDimension(name, len(values))
         _describe(file.createVariable(name, VARIABLES[name].dtype, (name,)), name)
         file[name][...] = values
+    for name, length in layout.lengths.items():
+        file.createDimension(name, length)
     for name in layout.names:
         row = VARIABLES[name]
         variable = file.createVariable(
@@ -116,9 +122,10 @@ def _describe(variable: netCDF4.Variable, name: str) -> None:
 
 
 def _storage(layout: Layout, dimensions: tuple[str, ...]) -> dict[str, object]:
-    if "mode" not in dimensions:
+    if len(dimensions) < 2:
         return {}
-    chunk = (1, 1, 1, 1, len(layout.coordinates["mode"]))
+    lengths = layout.lengths | {"mode": len(layout.coordinates["mode"])}
+    chunk = (1, 1, 1, 1, lengths[dimensions[1]])
     return {"chunksizes": chunk, "zlib": True, "complevel": 1, "shuffle": True}
 
 

@@ -39,6 +39,21 @@ def draw_cloud(axes: Axes, x, y, error, colour, marker: str, **style) -> None:
     )
 
 
+def draw_spectrum(axes: Axes, of, column: str, label: str, colour, marker: str, **style) -> None:
+    """A column of spectral rows against omega, with its entry in the legend; none without rows."""
+    at = of[of[column].notna()]
+    if len(at):
+        bars = at[f"{column}_standard_error"]
+        draw_cloud(axes, at["omega"], at[column], bars, colour, marker, **style)
+        add_to_legend(axes, label, colour, marker, **style)
+
+
+def draw_kinds(axes: Axes, of, column: str, styles: dict[str, dict]) -> None:
+    """Spectra of several kinds over each other, each in its style, where there is one."""
+    for kind, style in styles.items():
+        draw_spectrum(axes, of[of["kind"] == kind], column, **style)
+
+
 def modulus_label(symbol: str, table) -> str:
     """Label of an axis: a modulus over its unit under the contact law of the table."""
     return f"{symbol} / {MODULUS[table['law'].iloc[0]]}"
@@ -65,11 +80,18 @@ def samples(counts) -> str:
     return f"{high} {word}" if low == high else f"{low}–{high} {word}"
 
 
-def write_caption(figure: Figure, table, phi: float | None = None, note: str = "") -> None:
-    """N, phi, number of samples, meaning of the bars, and a note below them, above the figure."""
-    parts = [rf"$N = {table['n'].iloc[0]}$", samples(table["samples"]), "bars: standard error"]
-    if phi is not None:
-        parts.insert(1, rf"$\phi = {fraction(phi)}$")
+CONSTANTS = {
+    "n": lambda n: f"$N = {n}$",
+    "phi": lambda phi: rf"$\phi = {fraction(phi)}$",
+    "kt": lambda kappa: f"$k_T / k_N = {power(kappa)}$",
+}
+"""How a caption names what all curves of a figure have in common."""
+
+
+def write_caption(figure: Figure, table, constants: tuple = ("n",), note: str = "") -> None:
+    """Constants of the table, number of samples, meaning of the bars, and a note, on top."""
+    parts = [CONSTANTS[name](table[name].iloc[0]) for name in constants]
+    parts += [samples(table["samples"]), "bars: standard error"]
     figure.suptitle(", ".join(parts) + (f"\n{note}" if note else ""))
 
 

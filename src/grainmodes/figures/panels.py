@@ -10,15 +10,22 @@ from matplotlib.figure import Figure
 
 from grainmodes.figures import appearance
 
+DENSITY = r"$D(\omega) / t_0$"
+
 
 def draw_panels(
-    figure: Figure, table: pd.DataFrame, ordinate: str, draw: Callable[[Axes, pd.DataFrame], None]
+    figure: Figure,
+    table: pd.DataFrame,
+    ordinate: str,
+    draw: Callable[[Axes, pd.DataFrame], None],
+    note: str = "",
 ) -> list[Axes]:
     """Draw the rows of each k_T over a logarithmic axis of omega, two panels side by side.
 
     Args:
         ordinate: label of the vertical axis.
         draw: draws the rows of one k_T into a panel.
+        note: what the caption says below the numbers.
 
     Returns:
         the panels, ascending in k_T.
@@ -36,5 +43,33 @@ def draw_panels(
         axes.label_outer()
     for axes in grid[len(kappas) :]:
         axes.set_visible(False)
-    appearance.write_caption(figure, table, phi=table["phi"].iloc[0])
+    appearance.write_caption(figure, table, ("n", "phi"), note)
     return list(grid[: len(kappas)])
+
+
+def draw_densities(
+    figure: Figure, table: pd.DataFrame, draw: Callable[[Axes, pd.DataFrame], None]
+) -> list[Axes]:
+    """Panels of D, double logarithmic; a bin without modes has no symbol."""
+    filled = table[table["modes"] > 0]
+    panels = draw_panels(figure, filled, DENSITY, draw)
+    panels[0].set(yscale="log", ylim=appearance.logarithmic_limits(filled["density"]))
+    return panels
+
+
+def one_panel(figure: Figure, filled: pd.DataFrame) -> Axes:
+    """Axes for D of `filled`, double logarithmic."""
+    axes = figure.subplots()
+    axes.set(xscale="log", yscale="log", xlabel=r"$\omega t_0$", ylabel=DENSITY)
+    axes.set(ylim=appearance.logarithmic_limits(filled["density"]))
+    return axes
+
+
+def draw_curves(figure: Figure, table: pd.DataFrame, column: str, label: Callable) -> Axes:
+    """D for every value of a column in one panel; a bin without modes has no symbol."""
+    filled = table[table["modes"] > 0]
+    axes = one_panel(figure, filled)
+    for value, colour, marker in appearance.series(sorted(filled[column].unique())):
+        of = filled[filled[column] == value]
+        appearance.draw_spectrum(axes, of, "density", label(value), colour, marker)
+    return axes
