@@ -19,7 +19,8 @@ COLUMNS = (
 
 STYLES = {
     "frictional": {"colour": appearance.TRANSLATIONAL, "marker": "o"},
-    "frictionless": {"colour": appearance.ROTATIONAL, "marker": "^", "label": "frictionless"},
+    "frictionless": {"label": "frictionless", "colour": appearance.ROTATIONAL, "marker": "^"}
+    | appearance.OPEN,
 }
 
 

@@ -23,9 +23,14 @@ COLUMNS = (
 )
 HESSIANS = {"hessian": "_hessian", "printed": "_hessian_printed"}
 STYLES = {
-    "printed": {"label": "$H$, constants as printed", "colour": "0.55", "marker": "^"},
-    "hessian": {"label": "$H$, tangent", "colour": appearance.TRANSLATIONAL, "marker": "o"},
     "jacobian": {"label": "$J$", "colour": appearance.ROTATIONAL, "marker": "o"},
+    "hessian": {
+        "label": "$H$, tangent stiffnesses",
+        "colour": appearance.TRANSLATIONAL,
+        "marker": "s",
+    }
+    | appearance.OPEN,
+    "printed": {"label": "$H$, as printed", "colour": "0.55", "marker": "^"},
 }
 
 

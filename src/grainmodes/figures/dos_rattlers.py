@@ -18,8 +18,9 @@ COLUMNS = (
     | {"kind": ("-", "with rattlers kept, or without them, in the same bins")}
 )
 STYLES = {
-    "with": {"label": "with rattlers", "colour": appearance.TRANSLATIONAL, "marker": "o"},
-    "without": {"label": "without", "colour": appearance.ROTATIONAL, "marker": "^"},
+    "without": {"label": "without rattlers", "colour": appearance.ROTATIONAL, "marker": "^"},
+    "with": {"label": "with rattlers", "colour": appearance.TRANSLATIONAL, "marker": "o"}
+    | appearance.OPEN,
 }
 
 

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.figures import appearance
 
+COLUMNS = 2
 DENSITY = r"$D(\omega) / t_0$"
 
 
@@ -22,6 +23,8 @@ def draw_panels(
 ) -> list[Axes]:
     """Draw the rows of each k_T over a logarithmic axis of omega, two panels side by side.
 
+    The two share their axes; the next two, of stiffer k_T, span fewer decades and have their own.
+
     Args:
         ordinate: label of the vertical axis.
         draw: draws the rows of one k_T into a panel.
@@ -31,20 +34,22 @@ def draw_panels(
         the panels, ascending in k_T.
     """
     kappas = sorted(table["kt"].unique())
-    columns = min(2, len(kappas))
+    columns = min(COLUMNS, len(kappas))
     lines = -(-len(kappas) // columns)
     figure.set_size_inches(3.5 * columns, 0.4 + 2.4 * lines)
-    grid = figure.subplots(lines, columns, squeeze=False, sharex=True, sharey=True).ravel()
-    for index, (axes, kappa) in enumerate(zip(grid, kappas, strict=False)):
+    grid = figure.subplots(lines, columns, squeeze=False, sharex="row", sharey="row")
+    for index, (axes, kappa) in enumerate(zip(grid.ravel(), kappas, strict=False)):
         draw(axes, table[table["kt"] == kappa])
         appearance.name_panel(axes, index, f"$k_T / k_N = {appearance.power(kappa)}$")
-        axes.set(xscale="log", xlabel=r"$\omega t_0$", ylabel=ordinate)
-    for axes in grid[: len(kappas)]:
-        axes.label_outer()
-    for axes in grid[len(kappas) :]:
+        axes.tick_params(labelleft=index % columns == 0)
+    for axes in grid.ravel()[: len(kappas)]:
+        appearance.scale_frequencies(axes)
+    for axes in grid.ravel()[len(kappas) :]:
         axes.set_visible(False)
+    figure.supxlabel(r"$\omega t_0$", fontsize=10)
+    figure.supylabel(ordinate, fontsize=10)
     appearance.write_caption(figure, table, ("n", "phi"), note)
-    return list(grid[: len(kappas)])
+    return list(grid.ravel()[: len(kappas)])
 
 
 def draw_densities(
@@ -53,7 +58,10 @@ def draw_densities(
     """Panels of D, double logarithmic; a bin without modes has no symbol."""
     filled = table[table["modes"] > 0]
     panels = draw_panels(figure, filled, DENSITY, draw)
-    panels[0].set(yscale="log", ylim=appearance.logarithmic_limits(filled["density"]))
+    of = [density for _, density in filled.groupby("kt")["density"]]
+    for first in range(0, len(panels), COLUMNS):
+        row = pd.concat(of[first : first + COLUMNS])
+        panels[first].set(yscale="log", ylim=appearance.logarithmic_limits(row))
     return panels
 
 
@@ -66,10 +74,11 @@ def one_panel(figure: Figure, filled: pd.DataFrame) -> Axes:
 
 
 def draw_curves(figure: Figure, table: pd.DataFrame, column: str, label: Callable) -> Axes:
-    """D for every value of a column in one panel; a bin without modes has no symbol."""
-    filled = table[table["modes"] > 0]
-    axes = one_panel(figure, filled)
-    for value, colour, marker in appearance.series(sorted(filled[column].unique())):
-        of = filled[filled[column] == value]
-        appearance.draw_spectrum(axes, of, "density", label(value), colour, marker)
+    """D for every value of a column in one panel; a line ends where a bin has no modes."""
+    axes = one_panel(figure, table[table["modes"] > 0])
+    table = table.assign(density=table["density"].where(table["modes"] > 0))
+    for value, colour, marker in appearance.series(sorted(table[column].unique())):
+        of = table[table[column] == value]
+        axes.plot(of["omega"], of["density"], color=colour, linewidth=0.5)
+        appearance.draw_spectrum(axes, of, "density", label(value), colour, marker, markersize=1.5)
     return axes

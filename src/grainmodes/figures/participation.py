@@ -32,7 +32,8 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     """Squares: psi^T; circles: psi^R; a bin without modes has neither (A plots 0 there)."""
     filled = table[table["modes"] > 0]
     panels = draw_panels(figure, filled, r"$\psi^T,\ \psi^R$", _panel)
-    panels[0].set(ylim=(-0.05, 1.05), yticks=(0, 0.25, 0.5, 0.75, 1))
+    for axes in panels:
+        axes.set(ylim=(-0.05, 1.05), yticks=(0, 0.25, 0.5, 0.75, 1))
     panels[0].legend()
 
 

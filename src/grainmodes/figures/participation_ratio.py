@@ -47,7 +47,8 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     panels = draw_panels(
         figure, filled, r"$p(\omega)$", _panel, f"{table['kind'].iloc[0]} rattlers"
     )
-    panels[0].set(yscale="log")
+    for axes in panels:
+        axes.set_yscale("log")
     panels[0].legend()
 
 
