@@ -112,6 +112,6 @@ def of_bins(modes: Binned, point: Point, kind: str) -> pd.DataFrame:
 
 
 def stacked(parts: list[pd.DataFrame]) -> pd.DataFrame:
-    """Tables below each other, without the rows behind which no sample stands."""
-    filled = [part[part["samples"] > 0] for part in parts]
-    return pd.concat([part for part in filled if len(part)] or filled[:1], ignore_index=True)
+    """Tables below each other, without those that hold no mode."""
+    filled = [part for part in parts if part["modes"].any()]
+    return pd.concat(filled or [parts[0][:0]], ignore_index=True)
