@@ -216,7 +216,7 @@ POINT = (16, 0.90, 1e-4)
 def test_modes_and_bins_give_the_same_numbers(whole_ensemble, counted_ensemble):
     for kappa in (0.0, 1e-8, 1e-4, 10.0):
         point = (16, 0.90, kappa)
-        bins = counted(counted_ensemble, *point).binned
+        bins = counted(counted_ensemble, *point)
         modes = spectrum(whole_ensemble, *point).in_bins(bins.edges)
         assert_array_equal(bins.edges, synthetic.edges(kappa))
         assert_array_equal(bins.count, modes.count)

@@ -41,16 +41,6 @@ class Spectrum(NamedTuple):
         return binning.binned(self.frequency, modes, *self[1:], edges)
 
 
-class Counted(NamedTuple):
-    """The spectrum of the samples of one point as it was counted in bins."""
-
-    binned: Binned
-
-    def in_bins(self, edges: np.ndarray) -> Binned:
-        """The bins in which the modes were counted, whatever `edges`."""
-        return self.binned
-
-
 def points_with(ensemble: xr.Dataset, *names: str) -> xr.DataArray:
     """Points at which a sample has a number under one of the names: bool (n, phi, kt).
 
@@ -66,7 +56,7 @@ def points_with(ensemble: xr.Dataset, *names: str) -> xr.DataArray:
 
 def spectrum(
     ensemble: xr.Dataset, n: int, phi: float, kt: float, variant: str = ""
-) -> Spectrum | Counted:
+) -> Spectrum | Binned:
     """The spectrum of one point: its modes where the study has them, else its bins.
 
     Args:
@@ -86,7 +76,7 @@ def spectrum(
     return Spectrum(values, *measured)
 
 
-def counted(ensemble: xr.Dataset, n: int, phi: float, kt: float, variant: str = "") -> Counted:
+def counted(ensemble: xr.Dataset, n: int, phi: float, kt: float, variant: str = "") -> Binned:
     """The bins of one point.
 
     Args:
@@ -103,7 +93,7 @@ def counted(ensemble: xr.Dataset, n: int, phi: float, kt: float, variant: str = 
     count = np.nan_to_num(_of_jammed(point, f"bin_count{variant}"))
     modes = np.nan_to_num(_of_jammed(point, "mode_count"))
     bands = (_sums(point, f"bin_{name}{variant}", count) for name in Spectrum._fields[1:])
-    return Counted(Binned(edges, count, modes - count.sum(axis=1), *bands))
+    return Binned(edges, count, modes - count.sum(axis=1), *bands)
 
 
 def _measured(ensemble: xr.Dataset, name: str) -> xr.DataArray:

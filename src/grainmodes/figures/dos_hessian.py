@@ -49,7 +49,7 @@ def table(ensemble, options: Options) -> pd.DataFrame:
 
 
 def _panel_rows(ensemble, point: spectral_rows.Point) -> pd.DataFrame:
-    bins = {kind: counted(ensemble, *point, ending).binned for kind, ending in HESSIANS.items()}
+    bins = {kind: counted(ensemble, *point, ending) for kind, ending in HESSIANS.items()}
     bins["jacobian"] = spectrum(ensemble, *point).in_bins(bins["hessian"].edges)
     return spectral_rows.stacked(
         [spectral_rows.of_bins(of, point, kind) for kind, of in bins.items()]

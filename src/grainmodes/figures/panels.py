@@ -1,4 +1,4 @@
-"""A grid of panels, one per k_T, on common axes."""
+"""Panels of spectra: a grid of one per k_T, or one with a curve per N or phi."""
 
 from __future__ import annotations
 
@@ -34,22 +34,28 @@ def draw_panels(
         the panels, ascending in k_T.
     """
     kappas = sorted(table["kt"].unique())
-    columns = min(COLUMNS, len(kappas))
-    lines = -(-len(kappas) // columns)
-    figure.set_size_inches(3.5 * columns, 0.4 + 2.4 * lines)
-    grid = figure.subplots(lines, columns, squeeze=False, sharex="row", sharey="row")
-    for index, (axes, kappa) in enumerate(zip(grid.ravel(), kappas, strict=False)):
+    panels = _grid(figure, len(kappas))
+    for index, (axes, kappa) in enumerate(zip(panels, kappas, strict=True)):
         draw(axes, table[table["kt"] == kappa])
         appearance.name_panel(axes, index, f"$k_T / k_N = {appearance.power(kappa)}$")
-        axes.tick_params(labelleft=index % columns == 0)
-    for axes in grid.ravel()[: len(kappas)]:
+    for axes in panels:
         appearance.scale_frequencies(axes)
-    for axes in grid.ravel()[len(kappas) :]:
-        axes.set_visible(False)
     figure.supxlabel(r"$\omega t_0$", fontsize=10)
     figure.supylabel(ordinate, fontsize=10)
     appearance.write_caption(figure, table, ("n", "phi"), note)
-    return list(grid.ravel()[: len(kappas)])
+    return panels
+
+
+def _grid(figure: Figure, count: int) -> list[Axes]:
+    columns = min(COLUMNS, count)
+    lines = -(-count // columns)
+    figure.set_size_inches(3.5 * columns, 0.4 + 2.4 * lines)
+    grid = figure.subplots(lines, columns, squeeze=False, sharex="row", sharey="row")
+    for axes in grid[:, 1:].ravel():
+        axes.tick_params(labelleft=False)
+    for axes in grid.ravel()[count:]:
+        axes.set_visible(False)
+    return list(grid.ravel()[:count])
 
 
 def draw_densities(

@@ -12,7 +12,7 @@ import pandas as pd
 from grainmodes import binning, statistics
 from grainmodes.binning import Binned
 from grainmodes.ensemble import fineness
-from grainmodes.ensemble.spectra import Counted, Spectrum, spectrum
+from grainmodes.ensemble.spectra import Spectrum, spectrum
 from grainmodes.figures.selection import Options
 
 BINS = {
@@ -55,7 +55,9 @@ def rows(ensemble, options: Options, points: list[Point]) -> pd.DataFrame:
 
 
 def compared(ensemble, options: Options, kinds: dict[str, tuple[Point, str]]) -> pd.DataFrame:
-    """Several spectra in the same bins, below each other, with all columns and `kind`.
+    """Several spectra below each other, with all columns and `kind`.
+
+    All are in the same bins, but for those that the study counted: these keep their own.
 
     Args:
         kinds: word for the column `kind` → point, and ending of the names in the ensemble.
@@ -68,14 +70,14 @@ def compared(ensemble, options: Options, kinds: dict[str, tuple[Point, str]]) ->
     return stacked(parts)
 
 
-def shared_edges(spectra: list[Spectrum | Counted], kappa: float, fineness: float) -> np.ndarray:
+def shared_edges(spectra: list[Spectrum | Binned], kappa: float, fineness: float) -> np.ndarray:
     """A's bins over the range of all spectra, or the bins in which one of them was counted.
 
     One edge only where there is no vibration.
     """
     for of in spectra:
-        if isinstance(of, Counted):
-            return of.binned.edges
+        if isinstance(of, Binned):
+            return of.edges
     frequency = np.concatenate([of.frequency.ravel() for of in spectra])
     if not np.isfinite(frequency).any():
         return np.zeros(1)
