@@ -337,6 +337,7 @@ def test_points_are_those_that_have_the_data(tmp_path):
         synthetic.point(tmp_path, 8, 0.90, 1e-8, 2),
         synthetic.point(tmp_path, 8, 0.90, 1e-4, 2),
         synthetic.point(tmp_path, 16, 0.90, 1e-8, 2, counts),
+        synthetic.point(tmp_path, 24, 0.90, 0.0, 2),
         synthetic.point(tmp_path, 32, 0.90, 1e-8, 2, rigidity),
         synthetic.point(tmp_path, 8, 0.92, 1e-8, 2, rigidity),
     ]
@@ -355,20 +356,26 @@ def test_points_are_those_that_have_the_data(tmp_path):
             dos_frictionless.table(dataset, Options())
 
 
-def test_counts_alone_stand_behind_modes_and_averages(tmp_path):
-    large = synthetic.block("spectrum_bins", 16, 0.9, 1e-8, range(2))
-    for name in list(large.variables):
+def unaveraged(folder, stage, n, kt):
+    """A point whose spectra have neither psi nor p."""
+    packings, spectra = (synthetic.block(of, n, 0.9, kt, range(2)) for of in ("packings", stage))
+    for name in list(spectra.variables):
         if "psi" in name or "participation" in name:
-            del large.variables[name]
-    packings = synthetic.block("packings", 16, 0.9, 1e-8, range(2))
-    write_block(tmp_path / "large.nc", merge_blocks({"a": packings, "b": large}))
-    points = [tmp_path / "large.nc", synthetic.point(tmp_path, 8, 0.9, 1e-8, 2)]
-    for some, n in ((points, 8), (points[:1], 16)):
-        write_ensemble(some, tmp_path / "ensemble.nc", {})
+            del spectra.variables[name]
+    path = folder / f"{stage}-{n}-{kt}.nc"
+    write_block(path, merge_blocks({"a": packings, "b": spectra}))
+    return path
+
+
+def test_counts_alone_stand_behind_modes_and_averages(tmp_path):
+    large = unaveraged(tmp_path, "spectrum_bins", 16, 1e-8)
+    small = [unaveraged(tmp_path, "spectrum", 8, 1e-4), synthetic.point(tmp_path, 8, 0.9, 1e-8, 2)]
+    for points, n, kts in (([large, *small], 8, [1e-8, 1e-4]), ([large], 16, [1e-8])):
+        write_ensemble(points, tmp_path / "ensemble.nc", {})
         with open_ensemble(tmp_path / "ensemble.nc") as dataset:
-            assert set(dos.table(dataset, Options())["n"]) == {n}
-    with open_ensemble(tmp_path / "ensemble.nc") as dataset:
-        assert set(dos_n.table(dataset, Options())["n"]) == {16}
+            table = dos.table(dataset, Options())
+            assert (set(table["n"]), list(table["kt"].unique())) == ({n}, kts)
+            assert dos_n.table(dataset, Options())["n"].max() == 16
 
 
 def test_one_sample_of_averages_has_the_error_stated_for_it(tmp_path):
