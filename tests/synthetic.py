@@ -1,7 +1,9 @@
 """Blocks and ensembles that look like those of a study, without any grain behind them.
 
 Two translations at round-off, a rotational band at omega ~ (k_T)^(1/2), a translational band at
-omega ~ 1, G growing with phi and k_T; below `JAMMING` nothing is jammed.
+omega ~ 1, G growing with phi and k_T; below `JAMMING` nothing is jammed. `spectrum_bins` counts the
+modes of `spectrum`, in `spectrum_rattlers` the three highest belong to a rattler, and the Hessian
+with the printed constants has every mode one bin too high.
 """
 
 from __future__ import annotations
@@ -15,6 +17,8 @@ from grainmodes.ensemble import gather_point, write_ensemble
 from grainmodes.parameters import format_value
 
 JAMMING = 0.845
+STAGES = ("packings", "rigidity", "step_strain", "spectrum")
+WHOLE = (*STAGES, "spectrum_rattlers", "spectrum_hessian")
 
 
 def block(stage: str, n: int, phi: float, kt: float, seeds: range, /, **changes) -> Block:
@@ -26,7 +30,7 @@ def block(stage: str, n: int, phi: float, kt: float, seeds: range, /, **changes)
     }
     variables |= _VARIABLES[stage](n, phi, kt, len(seeds), draws)
     attributes = {
-        "stage": stage,
+        "stage": "spectrum" if stage == "spectrum_bins" else stage,
         "n": n,
         "phi": phi,
         "code_version": "0.1",
@@ -52,7 +56,7 @@ def ensemble(
     for n in ns:
         for phi in phis:
             for kt in kts:
-                points.append(point(folder, n, phi, kt, seeds, stages or tuple(_VARIABLES)))
+                points.append(point(folder, n, phi, kt, seeds, stages or STAGES))
     write_ensemble(points, folder / "ensemble.nc", {"scene": "synthetic"})
     return folder / "ensemble.nc"
 
@@ -61,7 +65,7 @@ def point(folder: Path, n: int, phi: float, kt: float, seeds: int, stages=None) 
     """Write the blocks of one point and the point; return the path of the point."""
     stem = folder / "-".join(map(format_value, (n, phi, kt)))
     paths = []
-    for stage in stages or tuple(_VARIABLES):
+    for stage in stages or STAGES:
         paths.append(stem.with_name(f"{stem.name}-{stage}.nc"))
         write_block(paths[-1], block(stage, n, phi, kt, range(seeds)))
     write_block(stem.with_name(f"{stem.name}.nc"), gather_point(paths))
@@ -100,20 +104,70 @@ def _step_strain(n, phi, kt, size, draws):
 
 
 def _spectrum(n, phi, kt, size, draws):
+    rotations = n if kt else 0
+    columns = 2 * n + rotations
+    names = ("eigenvalue", "psi_rotational", "participation_ratio")
     if phi <= JAMMING:
-        missing = np.full((size, 3 * n), np.nan)
-        return {"eigenvalue": missing, "psi_rotational": missing, "mode_count": np.zeros(size, int)}
-    rotational = kt * draws.uniform(0.1, 1.5, (size, n))
+        return dict.fromkeys(names, np.full((size, columns), np.nan)) | {
+            "mode_count": np.zeros(size, int)
+        }
+    rotational = kt * draws.uniform(0.1, 1.5, (size, rotations))
     translational = draws.uniform(0.02, 1.4, (size, 2 * n - 2)) ** 2
     values = np.hstack([draws.normal(0, 1e-16, (size, 2)), rotational, translational])
-    kind = np.hstack([np.zeros((size, 2)), np.ones((size, n)), np.zeros((size, 2 * n - 2))])
+    kind = np.hstack([np.zeros((size, 2)), np.ones((size, rotations)), np.zeros((size, 2 * n - 2))])
+    measured = (values, kind, draws.uniform(0.2, 0.6, (size, columns)))
     order = values.argsort(axis=1)
-    return {
-        "eigenvalue": np.take_along_axis(values, order, axis=1),
-        "psi_rotational": np.take_along_axis(kind, order, axis=1),
-        "mode_count": np.full(size, 3 * n),
+    modes = (np.take_along_axis(of, order, axis=1) for of in measured)
+    return dict(zip(names, modes, strict=True)) | {
+        "mode_count": np.full(size, columns),
         "residual": np.full(size, 1e-15),
     }
+
+
+def edges(kt):
+    """The bins of every sample at k_T, around all its modes."""
+    lowest, highest = min(0.01, 0.2 * np.sqrt(kt or 1.0)), max(1.6, 1.3 * np.sqrt(kt))
+    return np.concatenate([np.geomspace(lowest, 0.1, 12)[:-1], np.linspace(0.1, highest, 40)])
+
+
+def _spectrum_bins(n, phi, kt, size, draws):
+    modes = _spectrum(n, phi, kt, size, draws)
+    inside = _in_bin(modes["eigenvalue"], edges(kt))
+    count = inside.sum(axis=1)
+    names = ("psi_rotational", "participation_ratio")
+    with np.errstate(invalid="ignore"):
+        means = [np.nansum(modes[name][:, :, None] * inside, axis=1) / count for name in names]
+    row = {"bin_edge": np.tile(edges(kt), (size, 1)), "bin_count": count}
+    row |= {"mode_count": modes["mode_count"], "modes_below": modes["mode_count"] - count.sum(1)}
+    for name, mean, error in zip(names, means, (0.01, 0.02), strict=True):
+        row |= {f"bin_{name}": mean, f"bin_{name}_error": error + 0 * mean}
+    return row
+
+
+def _spectrum_rattlers(n, phi, kt, size, draws):
+    modes = _spectrum(n, phi, kt, size, draws)
+    lone = {"eigenvalue": [0.0, 0.0, 0.01 * kt], "psi_rotational": 1, "participation_ratio": 1 / n}
+    if phi > JAMMING:
+        for name, of in lone.items():
+            modes[name][:, -3:] = of
+    return {f"{name}_rattlers": modes[name] for name in (*lone, "mode_count")}
+
+
+def _spectrum_hessian(n, phi, kt, size, draws):
+    modes = _spectrum(n, phi, kt, size, draws)
+    count = _in_bin(modes["eigenvalue"], edges(kt)).sum(axis=1)
+    return {
+        "bin_edge": np.tile(edges(kt), (size, 1)),
+        "bin_count_hessian": count,
+        "bin_count_hessian_printed": np.roll(count, 1, axis=1),
+    }
+
+
+def _in_bin(eigenvalue, edges):
+    """Whether a mode lies in a bin: (samples, modes, bins)."""
+    squared = edges**2
+    above = eigenvalue[:, :, None] >= squared[:-1]
+    return above & (eigenvalue[:, :, None] < squared[1:])
 
 
 _VARIABLES = {
@@ -121,4 +175,7 @@ _VARIABLES = {
     "rigidity": _rigidity,
     "step_strain": _step_strain,
     "spectrum": _spectrum,
+    "spectrum_bins": _spectrum_bins,
+    "spectrum_rattlers": _spectrum_rattlers,
+    "spectrum_hessian": _spectrum_hessian,
 }

@@ -1,11 +1,16 @@
-"""The bins of frequency of paper A, and how many modes fall into each.
+"""The bins of frequency of paper A, and the modes that fall into each.
 
 A, Sec. IV B: the range of the data is divided into 50 logarithmic intervals; the range of the ten
 highest is divided anew into 500 linear ones, and last the part of the range within
 0.1 omega_R < omega < 2 omega_R, omega_R t_0 = (k_T / k_N)^(1/2), into 100 linear ones.
+
+`Binned` is the one form of every spectrum that a figure shows, whether its modes are known one by
+one or were counted in bins with averages of psi^R and p.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -25,6 +30,34 @@ SAFE = 1e-7
 
 STIFFEST = {"hertz": 1.5, "harmonic": 2.5}
 """Last edge of counted bins at k_T = 0, by normal law."""
+
+
+class Sums(NamedTuple):
+    """Sums of a number per mode over the modes of each bin, with the error stated for each.
+
+    `total` (S, B) is NaN where the number is not known, `error` (S, B) 0 where the sum is exact.
+    """
+
+    total: np.ndarray
+    error: np.ndarray
+
+
+class Binned(NamedTuple):
+    """The modes of S samples in B bins.
+
+    `edges` (B + 1,), 1/t_0; `count` (S, B) modes of each sample in each bin; `outside` (S,) modes
+    in no bin: zero, negative, below the first or above the last.
+    """
+
+    edges: np.ndarray
+    count: np.ndarray
+    outside: np.ndarray
+    psi_rotational: Sums
+    participation_ratio: Sums
+
+    def in_bins(self, edges: np.ndarray) -> Binned:
+        """These bins, whatever `edges`: what was counted cannot be divided anew."""
+        return self
 
 
 def bin_edges(kappa: float, lowest: float, highest: float, fineness: float = 1.0) -> np.ndarray:
@@ -69,6 +102,27 @@ def fixed_edges(kappa: float, normal: str, fineness: float) -> np.ndarray:
 def _redivided(edges: np.ndarray, start: float, stop: float, divisions: float) -> np.ndarray:
     linear = np.linspace(start, stop, max(1, round(divisions)) + 1)
     return np.concatenate([edges[edges < start], linear, edges[edges > stop]])
+
+
+def binned(
+    frequency: np.ndarray,
+    modes: np.ndarray,
+    psi_rotational: np.ndarray,
+    participation_ratio: np.ndarray,
+    edges: np.ndarray,
+) -> Binned:
+    """Modes known one by one, in bins.
+
+    Args:
+        frequency: (S, M) 1/t_0, NaN where there is no vibration.
+        modes: (S,) modes of each sample, those without a frequency included.
+        psi_rotational, participation_ratio: (S, M); NaN where they are not known.
+        edges: (B + 1,) 1/t_0.
+    """
+    count = occupation(frequency, edges)
+    exact = np.zeros_like(count)
+    sums = (occupation(frequency, edges, of) for of in (psi_rotational, participation_ratio))
+    return Binned(edges, count, modes - count.sum(axis=1), *(Sums(of, exact) for of in sums))
 
 
 def bin_centres(edges: np.ndarray) -> np.ndarray:

@@ -30,6 +30,8 @@ class Variable(NamedTuple):
 
 
 BLOCK = ("seed",)
+MODES = ("seed", "mode")
+BINS = ("seed", "bin")
 FORCE = "k_N d^(3/2)"
 MODULUS = "k_N d^(1/2)"
 
@@ -178,6 +180,7 @@ VARIABLES: dict[str, Variable] = {
     ),
     "jammed_frictional": Variable(
         BLOCK, "f8", "1", "1 if the state compressed with friction is jammed, else 0"
+    ),
     # fields, (x, y, l) of every grain; NaN: a rattler
     "affine_field": Variable(
         ("seed", "grain", "component"), "f8", "d", "affine displacement per unit strain, (x, y, l)"

@@ -229,6 +229,31 @@ FIGURES = {
         ("fields", "friction"),
         "fields",
     ),
+    "dos_frictionless": Figure(
+        "Density of states at weak friction and without (paper A, Fig. 11)",
+        ("spectrum", "friction", "frictionless"),
+    ),
+    "dos_hessian": Figure(
+        "Density of states of the Jacobian and of the effective Hessian (paper A, Fig. 12)",
+        ("spectrum", "friction", "hessian"),
+    ),
+    "dos_rattlers": Figure(
+        "Density of states with and without rattlers (paper A, Fig. 13)",
+        ("spectrum", "friction", "rattlers"),
+    ),
+    "participation_ratio": Figure(
+        "Participation ratio of the modes (paper A, Fig. 14)", ("modes", "friction")
+    ),
+    "dos_n": Figure(
+        "Density of states for several N (paper A, Fig. 15)",
+        ("spectrum", "friction", "several_n"),
+    ),
+    "dos_phi": Figure(
+        "Density of states towards jamming (paper A, Fig. 16)",
+        ("spectrum", "friction", "several_phi"),
+    ),
 }
 """Every figure. `rigidity` figures show the simulated step strain as well where a study has it;
-`modes` stands for a spectrum with ψ and p, `friction` for a k_T above 0."""
+`modes` stands for a spectrum with eigenvectors or band averages, `friction` for a k_T above 0,
+`frictionless` for k_T = 0 beside it, `rattlers` and `hessian` for these variants of the spectrum,
+`several_n` and `several_phi` for spectra at more than one N or φ."""

@@ -12,9 +12,13 @@ Both are counted, so that nothing disappears unseen. Per bin of width w, from a 
     D(omega)     = <number of modes in the bin> / (3 N w)                            (A, Eq. 23)
     psi^R(omega) = <sum' psi_n^R over the bin> / <number of modes in the bin>        (A, Eq. 52)
 
+    p(omega)     = <sum' p_n over the bin>      / <number of modes in the bin>       (A, Eq. E2)
+
 so that the sum of D w over all bins is (modes counted) / (3 N). psi^T = 1 - psi^R (A, Eq. 51).
-The error of D is the standard error over samples; psi is a ratio of two averages r = A / C, with
-the error of a ratio estimator: [S/(S - 1) sum_s (a_s - r c_s)^2]^(1/2) / sum_s c_s.
+The error of D is the standard error over samples; psi and p are ratios of two averages r = A / C,
+with the error of a ratio estimator: [S/(S - 1) sum_s (a_s - r c_s)^2]^(1/2) / sum_s c_s. Where a_s
+is an estimate with an error e_s of its own, the scatter of the a_s contains it, but a few samples
+may scatter less by chance: the error is then at least (sum_s e_s^2)^(1/2) / sum_s c_s.
 """
 
 from __future__ import annotations
@@ -23,7 +27,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.binning import occupation
+from grainmodes.binning import Sums
 
 TRANSLATIONS = 2
 """Zero modes of every rigid sample under periodic boundaries."""
@@ -87,38 +91,38 @@ def frequencies(eigenvalue: np.ndarray) -> Frequencies:
     return Frequencies(np.sqrt(squared), zero.sum(axis=1), negative.sum(axis=1))
 
 
-def density_of_states(frequency: np.ndarray, n: int, edges: np.ndarray) -> Average:
+def density_of_states(count: np.ndarray, n: int, edges: np.ndarray) -> Average:
     """D(omega) per bin (A, Eq. 23), averaged over samples; a sample without modes counts as 0.
 
     Args:
-        frequency: (S, M) 1/t_0, NaN where there is no vibration.
+        count: (S, B) modes of each sample in each bin.
         n: number of grains, rattlers included.
         edges: (B + 1,) 1/t_0.
 
     Returns:
         arrays (B,), t_0; divided by 3 N also for frictionless grains, whose D is then comparable.
     """
-    density = occupation(frequency, edges) / (3 * n * np.diff(edges))
+    density = count / (3 * n * np.diff(edges))
     return average(density.T, np.ones(density.T.shape, dtype=bool))
 
 
-def mode_average(weight: np.ndarray, frequency: np.ndarray, edges: np.ndarray) -> Average:
+def mode_average(count: np.ndarray, sums: Sums) -> Average:
     """Mean of a number per mode in each bin, as psi of A, Eqs. 51-52.
 
     Args:
-        weight, frequency: (S, M); frequency in 1/t_0, NaN where there is no vibration.
-        edges: (B + 1,) 1/t_0.
+        count: (S, B) modes of each sample in each bin.
+        sums: (S, B) the sums of the number over these modes; NaN leaves the sample out.
 
     Returns:
         arrays (B,): mean, NaN in an empty bin (A plots 0 there); error, NaN unless two samples
-        have modes in the bin; number of samples that have.
+        have modes in the bin or errors are stated; number of samples that have.
     """
-    count = occupation(frequency, edges)
-    total = occupation(frequency, edges, weight)
-    samples = (count > 0).sum(axis=0)
-    size = len(frequency)
+    known = np.isfinite(sums.total) & (count > 0)
+    count, total, stated = (np.where(known, of, 0.0) for of in (count, *sums))
+    samples, size = known.sum(axis=0), np.isfinite(sums.total).sum(axis=0)
     with np.errstate(invalid="ignore", divide="ignore"):
         ratio = total.sum(axis=0) / count.sum(axis=0)
         scatter = ((total - ratio * count) ** 2).sum(axis=0) * size / (size - 1.0)
-        error = np.sqrt(scatter) / count.sum(axis=0)
-    return Average(ratio, np.where(samples > 1, error, np.nan), samples)
+        error = np.sqrt(np.where(samples > 1, scatter, np.nan)) / count.sum(axis=0)
+        floor = np.sqrt((stated**2).sum(axis=0)) / count.sum(axis=0)
+    return Average(ratio, np.fmax(error, np.where(floor > 0, floor, np.nan)), samples)

@@ -11,7 +11,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 import synthetic
 from grainmodes.dataset import BlockError, read_block, write_block
 from grainmodes.ensemble import gather_point, merge_blocks, open_ensemble, write_ensemble
-from grainmodes.ensemble.averages import averages, spectrum
+from grainmodes.ensemble.averages import averages
+from grainmodes.ensemble.spectra import spectrum
 
 POINT = {"n": 16, "phi": 0.9, "kt": 1.0}
 

@@ -92,8 +92,8 @@ def test_bins_need_a_range(limits):
 
 
 def test_density_of_states_by_hand():
-    frequency = np.array([[0.5, 1.5, 1.6], [0.25, np.nan, 4.0]])
-    density = statistics.density_of_states(frequency, 2, np.array([0.0, 1.0, 2.0, 4.0]))
+    frequency, edges = np.array([[0.5, 1.5, 1.6], [0.25, np.nan, 4.0]]), np.array([0.0, 1, 2, 4])
+    density = statistics.density_of_states(binning.occupation(frequency, edges), 2, edges)
     assert_allclose(density.mean, np.array([2 / 2, 2 / 2, 1 / 2 / 2]) / 6)
     assert_allclose(density.standard_error, np.array([0.0, 1.0, 0.25]) / 6)
     assert_array_equal(density.samples, [2, 2, 2])
@@ -105,23 +105,56 @@ def test_density_of_states_integrates_to_the_fraction_of_modes():
     eigenvalue[2, 30:] = np.nan
     frequency = statistics.frequencies(eigenvalue).frequency
     edges = binning.bin_edges(1e-4, np.nanmin(frequency), np.nanmax(frequency))
-    density = statistics.density_of_states(frequency, 16, edges)
+    density = statistics.density_of_states(binning.occupation(frequency, edges), 16, edges)
     modes = (40 + 40 + 28) / 3
     assert_allclose((density.mean * np.diff(edges)).sum(), modes / (3 * 16))
 
 
 def test_density_of_states_counts_a_sample_without_modes_as_zero():
-    frequency = np.array([[0.5], [np.nan]])
-    density = statistics.density_of_states(frequency, 1, np.array([0.0, 1.0]))
+    density = statistics.density_of_states(np.array([[1.0], [0.0]]), 1, np.array([0.0, 1.0]))
     assert_allclose(density.mean, [0.5 / 3])
 
 
+def exact(*totals):
+    return binning.Sums(np.array(totals), np.zeros_like(totals))
+
+
 def test_mode_average_is_a_ratio_of_sums_not_a_mean_of_ratios():
-    frequency = np.array([[0.5, 0.5, 0.5], [0.5, np.nan, 1.5]])
-    weight = np.array([[1.0, 1.0, 1.0], [0.0, 9.0, 0.25]])
-    result = statistics.mode_average(weight, frequency, np.array([0.0, 1.0, 2.0, 3.0]))
+    count = np.array([[3.0, 0.0, 0.0], [1.0, 1.0, 0.0]])
+    result = statistics.mode_average(count, exact([3.0, 0.0, 0.0], [0.0, 0.25, 0.0]))
     assert_allclose(result.mean, [3 / 4, 0.25, np.nan])
     residuals = np.array([3 - 0.75 * 3, 0 - 0.75 * 1])
     assert_allclose(result.standard_error[0], np.sqrt(2 * (residuals**2).sum()) / 4)
     assert_array_equal(result.samples, [2, 1, 0])
     assert np.isnan(result.standard_error[1:]).all()
+
+
+def test_mode_average_leaves_out_samples_in_which_the_number_is_unknown():
+    count = np.array([[2.0], [2.0], [6.0]])
+    result = statistics.mode_average(count, exact([1.0], [2.0], [np.nan]))
+    assert_allclose(result.mean, 3 / 4)
+    assert_allclose(result.standard_error, np.sqrt(2 * (0.5**2 + 0.5**2)) / 4)
+    assert_array_equal(result.samples, [2])
+
+
+def test_stated_errors_are_the_least_that_an_average_has():
+    count, total = np.array([[2.0, 2.0], [2.0, 2.0]]), np.array([[1.0, 0.2], [1.0, 1.8]])
+    result = statistics.mode_average(count, binning.Sums(total, np.full((2, 2), 0.3)))
+    assert_allclose(result.standard_error[0], 0.3 * np.sqrt(2) / 4)
+    assert_allclose(result.standard_error[1], np.sqrt(2 * 2 * 0.8**2) / 4)
+    single = statistics.mode_average(count[:1], binning.Sums(total[:1], np.array([[0.3, 0.0]])))
+    assert_allclose(single.standard_error, [0.15, np.nan])
+
+
+def test_modes_in_bins_are_sums_and_what_lies_outside():
+    frequency = np.array([[np.nan, 0.5, 0.6, 1.5, 9.0], [0.1, 1.0, 2.0, np.nan, np.nan]])
+    psi = np.array([[0.0, 0.25, 0.5, 1.0, 1.0], [1.0, 0.1, 0.2, np.nan, np.nan]])
+    found = binning.binned(
+        frequency, np.array([5, 3]), psi, np.nan * psi, np.array([0.2, 1.0, 2.0])
+    )
+    assert_array_equal(found.count, [[2, 1], [0, 2]])
+    assert_array_equal(found.outside, [2, 1])
+    assert_allclose(found.psi_rotational.total, [[0.75, 1.0], [0.0, 0.3]])
+    assert_array_equal(found.psi_rotational.error, 0.0)
+    mean = statistics.mode_average(found.count, found.participation_ratio).mean
+    assert_array_equal(mean, [np.nan, np.nan])

@@ -1,4 +1,4 @@
-"""Averages of an ensemble with their uncertainties, and the spectra of one point.
+"""Averages of an ensemble with their uncertainties.
 
 An average runs over all converged samples. An unjammed sample has g = 0 and counts as such, as in
 A; the fraction jammed stands beside every average, so that the two effects can be told apart.
@@ -6,23 +6,13 @@ A; the fraction jammed stands beside every average, so that the two effects can 
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
-import numpy as np
 import pandas as pd
 import xarray as xr
 
 from grainmodes import statistics
-from grainmodes.dataset import BlockError
+from grainmodes.ensemble.reading import variable
 
 GRID = ["n", "phi", "kt"]
-
-
-class Spectrum(NamedTuple):
-    """The modes of the S converged samples of one point."""
-
-    eigenvalue: np.ndarray
-    psi_rotational: np.ndarray
 
 
 def averages(ensemble: xr.Dataset, names: list[str]) -> pd.DataFrame:
@@ -38,52 +28,14 @@ def averages(ensemble: xr.Dataset, names: list[str]) -> pd.DataFrame:
     Raises:
         BlockError: the ensemble lacks one of the names.
     """
-    converged = (_variable(ensemble, "converged") == 1).to_numpy()
-    jammed = statistics.average(_variable(ensemble, "jammed").to_numpy(), converged).mean
+    converged = (variable(ensemble, "converged") == 1).to_numpy()
+    jammed = statistics.average(variable(ensemble, "jammed").to_numpy(), converged).mean
     columns = {"fraction_jammed": jammed}
     for name in names:
-        result = statistics.average(_variable(ensemble, name).to_numpy(), converged)
+        result = statistics.average(variable(ensemble, name).to_numpy(), converged)
         columns[name] = result.mean
         columns[f"{name}_standard_error"] = result.standard_error
         columns[f"{name}_samples"] = result.samples
     index = pd.MultiIndex.from_product([ensemble[name].to_numpy() for name in GRID], names=GRID)
     flat = {name: column.ravel() for name, column in columns.items()}
     return pd.DataFrame(flat, index=index).reset_index()
-
-
-def spectrum(ensemble: xr.Dataset, n: int, phi: float, kt: float) -> Spectrum:
-    """Eigenvalues and rotational fractions of the converged samples of one point.
-
-    Returns:
-        eigenvalue (S, M), k_N d^(1/2), and psi_rotational (S, M), 1; NaN where there is no mode,
-        psi_rotational NaN also where the study computed no eigenvectors. A sample that is not
-        jammed is a row of NaN.
-
-    Raises:
-        BlockError: the ensemble holds no spectra.
-    """
-    _variable(ensemble, "eigenvalue")
-    point = ensemble.sel(n=n, phi=phi, kt=kt)
-    used = ((point["converged"] == 1) & point["mode_count"].notnull()).to_numpy()
-    eigenvalue = point["eigenvalue"].where(point["jammed"] == 1).to_numpy()[used]
-    if "psi_rotational" not in point:
-        return Spectrum(eigenvalue, np.full_like(eigenvalue, np.nan))
-    return Spectrum(eigenvalue, point["psi_rotational"].to_numpy()[used])
-
-
-def area_fractions_with_spectra(ensemble: xr.Dataset, n: int) -> np.ndarray:
-    """Area fractions at which the study computed spectra of n grains, ascending.
-
-    Raises:
-        BlockError: the ensemble holds no spectra.
-    """
-    _variable(ensemble, "eigenvalue")
-    computed = ensemble["mode_count"].sel(n=n).notnull().any(["kt", "seed"])
-    return ensemble["phi"].to_numpy()[computed.to_numpy()]
-
-
-def _variable(ensemble: xr.Dataset, name: str) -> xr.DataArray:
-    if name not in ensemble:
-        source = ensemble.encoding.get("source", "the ensemble")
-        raise BlockError(f"{source}: holds no {name}; its study did not ask for that observable")
-    return ensemble[name].transpose(*GRID, "seed", ...)

@@ -12,6 +12,9 @@ from grainmodes.parameters import ContactLaw
 if TYPE_CHECKING:
     import xarray as xr
 
+FINENESS = 0.2
+"""Factor on the numbers of linear bins of A's spectra where the configuration is silent."""
+
 DIMENSIONS = ("n", "phi", "kt", "seed", "mode")
 
 
@@ -40,7 +43,25 @@ def open_ensemble(path: str | Path) -> xr.Dataset:
     return ensemble
 
 
+def variable(ensemble: xr.Dataset, name: str) -> xr.DataArray:
+    """A variable of an ensemble, dimensions (n, phi, kt, seed, …).
+
+    Raises:
+        BlockError: the ensemble lacks it.
+    """
+    if name not in ensemble:
+        source = ensemble.encoding.get("source", "the ensemble")
+        raise BlockError(f"{source}: holds no {name}; its study did not ask for that observable")
+    return ensemble[name].transpose("n", "phi", "kt", "seed", ...)
+
+
 def normal_law(ensemble: xr.Dataset) -> str:
     """The normal contact law, on which units depend; "hertz" where the configuration is silent."""
     config = json.loads(ensemble.attrs["config"])
     return config.get("contact_law", {}).get("normal", ContactLaw.normal)
+
+
+def fineness(ensemble: xr.Dataset) -> float:
+    """Factor on the numbers of linear bins that the study chose for its spectra."""
+    protocol = json.loads(ensemble.attrs["config"]).get("protocol", {})
+    return protocol.get("spectrum", {}).get("fineness", FINENESS)

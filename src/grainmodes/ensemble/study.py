@@ -23,7 +23,7 @@ INTEGER_FILL = -1
 
 
 class Layout(NamedTuple):
-    """What the file has room for: values of the coordinates, and names of the variables."""
+    """What the file has room for: values of the coordinates, lengths of the bins, variables."""
 
     coordinates: dict[str, np.ndarray]
     lengths: dict[str, int]
@@ -79,15 +79,15 @@ def _coordinates(block: Block) -> tuple[int, float, float]:
 
 
 def _layout(paths: list[Path]) -> Layout:
-    grid, seeds, names, versions = set(), set(), set(), set()
-    lengths = {"mode": 0}
+    grid, seeds, names, versions, lengths = set(), set(), set(), set(), {"mode": 0}
     for _, block in _points(paths):
         grid.add(_coordinates(block))
         seeds.update(block.variables["seed"].tolist())
         names.update(name for name in block.variables if name != "seed")
         versions.add(str(block.attributes["code_version"]))
         for name, array in block.variables.items():
-            for dimension in VARIABLES[name].dimensions[1:]:
+            if array.ndim == 2:
+                dimension = VARIABLES[name].dimensions[1]
                 lengths[dimension] = max(lengths.get(dimension, 0), array.shape[1])
     coordinates = {
         name: np.unique([point[axis] for point in grid]) for axis, name in enumerate(GRID)
@@ -122,12 +122,10 @@ def _describe(variable: netCDF4.Variable, name: str) -> None:
 
 
 def _storage(layout: Layout, dimensions: tuple[str, ...]) -> dict[str, object]:
-    if len(dimensions) == 1:
+    if len(dimensions) < 2:
         return {}
-    length = (
-        len(layout.coordinates["mode"]) if "mode" in dimensions else layout.lengths[dimensions[1]]
-    )
-    chunk = (1, 1, 1, 1, length)
+    lengths = layout.lengths | {"mode": len(layout.coordinates["mode"])}
+    chunk = (1, 1, 1, 1, lengths[dimensions[1]])
     return {"chunksizes": chunk, "zlib": True, "complevel": 1, "shuffle": True}
 
 

@@ -9,12 +9,19 @@ import matplotlib.colors
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 MODULUS = {"hertz": r"$(k_N d^{1/2})$", "harmonic": "$k_N$"}
 """Unit of a modulus under each normal contact law."""
 
 TRANSLATIONAL, ROTATIONAL = "#b2182b", "#2166ac"
 """Red and blue as in A, of a pair that the colour-blind tell apart."""
+
+OPEN = {"mfc": "none", "mew": 0.5, "markersize": 3.6}
+"""A curve that others cover: open symbols around theirs."""
+
+SHORT = 200
+"""Ratio of limits below which powers of ten alone are too few labels."""
 
 MARKERS = "osD^vPX*"
 
@@ -34,9 +41,33 @@ def add_to_legend(axes: Axes, label: str, colour, marker: str, **style) -> None:
 def draw_cloud(axes: Axes, x, y, error, colour, marker: str, **style) -> None:
     """A curve of hundreds of points: small symbols, faint bars."""
     faint = (*matplotlib.colors.to_rgb(colour), 0.35)
-    axes.errorbar(
-        x, y, error, fmt=marker, color=colour, ecolor=faint, markersize=1.8, elinewidth=0.5, **style
-    )
+    style = {"markersize": 1.8, "ecolor": faint, "elinewidth": 0.5} | style
+    axes.errorbar(x, y, error, fmt=marker, color=colour, **style)
+
+
+def draw_spectrum(axes: Axes, of, column: str, label: str, colour, marker: str, **style) -> None:
+    """A column of spectral rows against omega, with its entry in the legend; none without rows."""
+    if of[column].notna().any():
+        bars = of[f"{column}_standard_error"]
+        draw_cloud(axes, of["omega"], of[column], bars, colour, marker, **style)
+        entry = {key: style[key] for key in ("mfc",) if key in style}
+        add_to_legend(axes, label, colour, marker, **entry)
+
+
+def draw_kinds(axes: Axes, of, column: str, styles: dict[str, dict]) -> None:
+    """Spectra of several kinds, each in its style where there is one, the first on top."""
+    for place, (kind, style) in enumerate(styles.items()):
+        draw_spectrum(axes, of[of["kind"] == kind], column, zorder=3 - place / 10, **style)
+
+
+def scale_frequencies(axes: Axes) -> None:
+    """A logarithmic axis whose labels also fit where it spans about a decade."""
+    axes.set_xscale("log")
+    low, high = axes.get_xlim()
+    if high < SHORT * low:
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda omega, _: f"{omega:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
 
 
 def modulus_label(symbol: str, table) -> str:
@@ -65,11 +96,18 @@ def samples(counts) -> str:
     return f"{high} {word}" if low == high else f"{low}–{high} {word}"
 
 
-def write_caption(figure: Figure, table, phi: float | None = None, note: str = "") -> None:
-    """N, phi, number of samples, meaning of the bars, and a note below them, above the figure."""
-    parts = [rf"$N = {table['n'].iloc[0]}$", samples(table["samples"]), "bars: standard error"]
-    if phi is not None:
-        parts.insert(1, rf"$\phi = {fraction(phi)}$")
+CONSTANTS = {
+    "n": lambda n: f"$N = {n}$",
+    "phi": lambda phi: rf"$\phi = {fraction(phi)}$",
+    "kt": lambda kappa: f"$k_T / k_N = {power(kappa)}$",
+}
+"""How a caption names what all curves of a figure have in common."""
+
+
+def write_caption(figure: Figure, table, constants: tuple = ("n",), note: str = "") -> None:
+    """Constants of the table, number of samples, meaning of the bars, and a note, on top."""
+    parts = [CONSTANTS[name](table[name].iloc[0]) for name in constants]
+    parts += [samples(table["samples"]), "bars: standard error"]
     figure.suptitle(", ".join(parts) + (f"\n{note}" if note else ""))
 
 

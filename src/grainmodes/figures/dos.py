@@ -7,23 +7,23 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.figures import appearance, spectral_rows
-from grainmodes.figures.panels import draw_panels
+from grainmodes.figures.panels import draw_densities
 from grainmodes.figures.selection import Options, panels
+from grainmodes.figures.spectral_points import place_of_densities
 
 COLUMNS = spectral_rows.BINS | spectral_rows.DENSITY
 
 
 def table(ensemble, options: Options) -> pd.DataFrame:
     """D in A's bins, with the columns `COLUMNS`."""
-    kappas = panels(options.kt, ensemble["kt"].to_numpy())
-    return spectral_rows.rows(ensemble, options, kappas)[list(COLUMNS)]
+    n, phi, kappas = place_of_densities(ensemble, options)
+    points = [(n, phi, kappa) for kappa in panels(options.kt, kappas)]
+    return spectral_rows.rows(ensemble, options, points)[list(COLUMNS)]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
     """Double logarithmic; a bin without modes has no symbol."""
-    filled = table[table["modes"] > 0]
-    panels = draw_panels(figure, filled, r"$D(\omega) / t_0$", _panel)
-    panels[0].set(yscale="log", ylim=appearance.logarithmic_limits(filled["density"]))
+    draw_densities(figure, table, _panel)
 
 
 def _panel(axes: Axes, of: pd.DataFrame) -> None:

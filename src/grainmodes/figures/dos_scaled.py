@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.figures import appearance, spectral_rows
 from grainmodes.figures.selection import Options, curves, positive
+from grainmodes.figures.spectral_points import place_of_densities
 
 COLUMNS = (
     spectral_rows.BINS
@@ -28,8 +29,9 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     Raises:
         ValueError: the ensemble has no k_T > 0.
     """
-    kappas = curves(options.kt, positive(ensemble["kt"].to_numpy(), "dos_scaled"), "kt")
-    found = spectral_rows.rows(ensemble, options, kappas)
+    n, phi, present = place_of_densities(ensemble, options)
+    kappas = curves(options.kt, positive(present, "dos_scaled"), "kt")
+    found = spectral_rows.rows(ensemble, options, [(n, phi, kappa) for kappa in kappas])
     rotational = np.sqrt(found["kt"])
     found["scaled_omega"] = found["omega"] / rotational
     found["scaled_density"] = found["density"] * rotational
@@ -50,4 +52,4 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     axes.set(xscale="log", yscale="log", xlim=SHOWN, ylim=limits)
     axes.set(xlabel=r"$\omega / \omega_R$", ylabel=r"$\omega_R D(\omega / \omega_R)$")
     axes.legend(title="$k_T / k_N$", ncols=2)
-    appearance.write_caption(figure, table, phi=table["phi"].iloc[0])
+    appearance.write_caption(figure, table, ("n", "phi"))

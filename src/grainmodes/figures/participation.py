@@ -6,10 +6,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grainmodes.dataset import BlockError
+from grainmodes.ensemble.spectra import points_with
 from grainmodes.figures import appearance, spectral_rows
 from grainmodes.figures.panels import draw_panels
 from grainmodes.figures.selection import Options, panels, positive
+from grainmodes.figures.spectral_points import MODES, place
 
 COLUMNS = spectral_rows.BINS | spectral_rows.FRACTION
 
@@ -21,17 +22,18 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         ValueError: the ensemble has no k_T > 0.
         BlockError: the study computed no eigenvectors.
     """
-    if "psi_rotational" not in ensemble:
-        raise BlockError("figure participation: the ensemble holds no psi_rotational")
-    kappas = panels(options.kt, positive(ensemble["kt"].to_numpy(), "participation"))
-    return spectral_rows.rows(ensemble, options, kappas)[list(COLUMNS)]
+    n, phi, found = place(options, points_with(ensemble, *MODES))
+    kappas = panels(options.kt, positive(found, "participation"))
+    points = [(n, phi, kappa) for kappa in kappas]
+    return spectral_rows.rows(ensemble, options, points)[list(COLUMNS)]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
     """Squares: psi^T; circles: psi^R; a bin without modes has neither (A plots 0 there)."""
     filled = table[table["modes"] > 0]
     panels = draw_panels(figure, filled, r"$\psi^T,\ \psi^R$", _panel)
-    panels[0].set(ylim=(-0.05, 1.05), yticks=(0, 0.25, 0.5, 0.75, 1))
+    for axes in panels:
+        axes.set(ylim=(-0.05, 1.05), yticks=(0, 0.25, 0.5, 0.75, 1))
     panels[0].legend()
 
 

@@ -9,6 +9,12 @@ import numpy as np
 PAPER_PANELS = (1e-8, 1e-4, 1.0, 10.0)
 """k_T/k_N of the four panels of A, Figs. 8 and 9."""
 
+PAPER_RATTLERS = (1e-8, 1e-4)
+"""k_T/k_N of the two panels of A, Figs. 13 and 14."""
+
+PAPER_WEAK = 1e-8
+"""k_T/k_N of A, Figs. 11, 15 and 16."""
+
 MOST_CURVES = 8
 """Curves that stay apart in one panel; of more values, evenly spread ones are shown."""
 
@@ -19,14 +25,15 @@ class Options:
 
     `n`, `phi`: the value shown by figures that show one; None is the largest of the ensemble.
     `kt`: the values of k_T/k_N to show; None is the figure's own choice.
-    `fineness`: factor on the numbers of linear bins of A's spectra (500 and 100), at most 1 where
-    an ensemble has too few modes for them.
+    `fineness`: factor on the numbers of linear bins of A's spectra (500 and 100), below 1 where an
+    ensemble has too few modes for them; None is the choice of the study. Spectra that were counted
+    in bins keep these.
     """
 
     n: int | None = None
     phi: float | None = None
     kt: tuple[float, ...] | None = None
-    fineness: float = 1.0
+    fineness: float | None = None
 
     @classmethod
     def read(cls, figure: str, given: dict) -> Options:
@@ -42,7 +49,7 @@ class Options:
                 f"figure {figure}: unknown option {unknown[0]!r}, allowed are {', '.join(allowed)}"
             )
         options = cls(**given)
-        if not 0.0 < options.fineness <= 1.0:
+        if options.fineness is not None and not 0.0 < options.fineness <= 1.0:
             raise ValueError(f"figure {figure}: fineness is {options.fineness}, allowed is (0, 1]")
         return options
 
@@ -64,14 +71,16 @@ def curves(asked: tuple[float, ...] | None, values: np.ndarray, name: str) -> li
     return [values[round(place)].item() for place in places]
 
 
-def panels(asked: tuple[float, ...] | None, values: np.ndarray) -> list[float]:
-    """k_T/k_N of the panels of a spectral figure: those asked for, A's, or at most four."""
+def panels(
+    asked: tuple[float, ...] | None, values: np.ndarray, paper: tuple[float, ...] = PAPER_PANELS
+) -> list[float]:
+    """k_T/k_N of the panels of a spectral figure: those asked for, A's, or at most as many."""
     if asked is not None:
         return curves(asked, values, "kt")
-    paper = [kappa for kappa in PAPER_PANELS if np.isclose(values, kappa, rtol=1e-9, atol=0).any()]
-    if len(paper) == len(PAPER_PANELS):
-        return paper
-    places = np.linspace(0, len(values) - 1, min(len(values), len(PAPER_PANELS)))
+    found = [kappa for kappa in paper if np.isclose(values, kappa, rtol=1e-9, atol=0).any()]
+    if len(found) == len(paper):
+        return found
+    places = np.linspace(0, len(values) - 1, min(len(values), len(paper)))
     return [values[round(place)].item() for place in places]
 
 
@@ -84,6 +93,19 @@ def positive(values: np.ndarray, figure: str) -> np.ndarray:
     if not (values > 0).any():
         raise ValueError(f"figure {figure}: the ensemble has no k_T > 0; the figure needs one")
     return values[values > 0]
+
+
+def weak(asked: tuple[float, ...] | None, values: np.ndarray) -> float:
+    """The one k_T/k_N of a figure of weak friction: the one asked for, A's, or the smallest.
+
+    Raises:
+        ValueError: several are asked for, or one that is none of `values`.
+    """
+    if asked is not None and len(asked) > 1:
+        raise ValueError(f"kt: the figure shows one value, asked for are {len(asked)}")
+    paper = values[np.isclose(values, PAPER_WEAK, rtol=1e-9, atol=0)]
+    default = (paper if len(paper) else values)[0].item()
+    return default if asked is None else _existing(asked[0], values, "kt")
 
 
 def _existing(asked: float, values: np.ndarray, name: str) -> float:

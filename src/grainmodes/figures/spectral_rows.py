@@ -1,7 +1,7 @@
-"""Rows of the figures of the spectrum: one per bin of A's binning, for each k_T.
+"""Rows of the figures of the spectrum: one per bin of frequency, for each curve.
 
-Zero and negative modes have no place on the axis of omega; their mean number per sample stands in
-every row, so that bins + zero + negative modes are all modes.
+Modes without a place in a bin (zero, negative, beyond the edges) are counted in every row, so that
+the bins and `modes_outside` are all modes.
 """
 
 from __future__ import annotations
@@ -10,8 +10,10 @@ import numpy as np
 import pandas as pd
 
 from grainmodes import binning, statistics
-from grainmodes.ensemble.averages import Spectrum, area_fractions_with_spectra, spectrum
-from grainmodes.figures.selection import Options, largest_or
+from grainmodes.binning import Binned
+from grainmodes.ensemble import fineness
+from grainmodes.ensemble.spectra import Spectrum, spectrum
+from grainmodes.figures.selection import Options
 
 BINS = {
     "n": ("1", "number of grains N"),
@@ -22,8 +24,7 @@ BINS = {
     "omega_high": ("1/t_0", "upper edge of the bin"),
     "samples": ("1", "number of converged samples"),
     "modes": ("1", "modes in the bin, all samples together"),
-    "zero_modes": ("1", "zero modes left out, mean per sample"),
-    "negative_modes": ("1", "negative modes left out, mean per sample"),
+    "modes_outside": ("1", "modes in no bin (zero, negative, beyond), mean per sample"),
 }
 DENSITY = {
     "density": ("t_0", "density of states D, A Eq. 23; unjammed samples count as 0"),
@@ -32,45 +33,87 @@ DENSITY = {
 FRACTION = {
     "psi_translational": ("1", "psi^T, A Eq. 51; no value in an empty bin"),
     "psi_rotational": ("1", "psi^R, A Eq. 52; no value in an empty bin"),
-    "psi_standard_error": ("1", "standard error of both, over samples"),
+    "psi_standard_error": ("1", "standard error of both, over samples, or stated if larger"),
 }
+PARTICIPATION = {
+    "participation_ratio": ("1", "participation ratio p, A Eq. E2; no value in an empty bin"),
+    "participation_ratio_standard_error": ("1", "standard error of p, as that of psi"),
+}
+COLUMNS = BINS | DENSITY | FRACTION | PARTICIPATION
 
 
-def rows(ensemble, options: Options, kappas: list[float]) -> pd.DataFrame:
-    """The bins of several k_T below each other, with all columns of this module.
+Point = tuple[int, float, float]
+"""n, phi, k_T."""
 
-    A k_T without any vibration (no jammed sample) has no rows.
+
+def rows(ensemble, options: Options, points: list[Point]) -> pd.DataFrame:
+    """The bins of several points below each other, with all columns `COLUMNS`.
+
+    Each point has bins of its own. One without any vibration (no jammed sample) has no rows.
     """
-    n = largest_or(options.n, ensemble["n"].to_numpy(), "n")
-    phi = largest_or(options.phi, area_fractions_with_spectra(ensemble, n), "phi")
-    parts = []
-    for kappa in kappas:
-        found = _bins(spectrum(ensemble, n, phi, kappa), n, kappa, options.fineness)
-        parts.append(found.assign(n=n, phi=phi, kt=kappa))
-    return pd.concat(parts, ignore_index=True)[[*BINS, *DENSITY, *FRACTION]]
+    return stacked([compared(ensemble, options, {"": (point, "")}) for point in points])
 
 
-def _bins(modes: Spectrum, n: int, kappa: float, fineness: float) -> pd.DataFrame:
-    found = statistics.frequencies(modes.eigenvalue)
-    if not np.isfinite(found.frequency).any():
-        return pd.DataFrame(columns=[*BINS, *DENSITY, *FRACTION])
-    lowest, highest = np.nanmin(found.frequency), np.nanmax(found.frequency)
-    edges = binning.bin_edges(kappa, lowest, highest, fineness)
-    density = statistics.density_of_states(found.frequency, n, edges)
-    psi = statistics.mode_average(modes.psi_rotational, found.frequency, edges)
+def compared(ensemble, options: Options, kinds: dict[str, tuple[Point, str]]) -> pd.DataFrame:
+    """Several spectra below each other, with all columns and `kind`.
+
+    All are in the same bins, but for those that the study counted: these keep their own.
+
+    Args:
+        kinds: word for the column `kind` → point, and ending of the names in the ensemble.
+    """
+    spectra = {kind: spectrum(ensemble, *point, ending) for kind, (point, ending) in kinds.items()}
+    kappa = max(point[-1] for point, _ in kinds.values())
+    chosen = fineness(ensemble) if options.fineness is None else options.fineness
+    edges = shared_edges(list(spectra.values()), kappa, chosen)
+    parts = [of_bins(of.in_bins(edges), kinds[kind][0], kind) for kind, of in spectra.items()]
+    return stacked(parts)
+
+
+def shared_edges(spectra: list[Spectrum | Binned], kappa: float, fineness: float) -> np.ndarray:
+    """A's bins over the range of all spectra, or the bins in which one of them was counted.
+
+    One edge only where there is no vibration.
+    """
+    for of in spectra:
+        if isinstance(of, Binned):
+            return of.edges
+    frequency = np.concatenate([of.frequency.ravel() for of in spectra])
+    if not np.isfinite(frequency).any():
+        return np.zeros(1)
+    return binning.bin_edges(kappa, np.nanmin(frequency), np.nanmax(frequency), fineness)
+
+
+def of_bins(modes: Binned, point: Point, kind: str) -> pd.DataFrame:
+    """The rows of one spectrum, with all columns and `kind`."""
+    n, phi, kappa = point
+    density = statistics.density_of_states(modes.count, n, modes.edges)
+    psi = statistics.mode_average(modes.count, modes.psi_rotational)
+    participation = statistics.mode_average(modes.count, modes.participation_ratio)
     return pd.DataFrame(
         {
-            "omega": binning.bin_centres(edges),
-            "omega_low": edges[:-1],
-            "omega_high": edges[1:],
+            "n": n,
+            "phi": phi,
+            "kt": kappa,
+            "omega": binning.bin_centres(modes.edges),
+            "omega_low": modes.edges[:-1],
+            "omega_high": modes.edges[1:],
             "samples": density.samples,
-            "modes": binning.occupation(found.frequency, edges).sum(axis=0).astype(int),
-            "zero_modes": found.zero.mean(),
-            "negative_modes": found.negative.mean(),
+            "modes": modes.count.sum(axis=0).astype(int),
+            "modes_outside": modes.outside.sum() / max(1, len(modes.outside)),
             "density": density.mean,
             "density_standard_error": density.standard_error,
             "psi_translational": 1.0 - psi.mean,
             "psi_rotational": psi.mean,
             "psi_standard_error": psi.standard_error,
+            "participation_ratio": participation.mean,
+            "participation_ratio_standard_error": participation.standard_error,
+            "kind": kind,
         }
     )
+
+
+def stacked(parts: list[pd.DataFrame]) -> pd.DataFrame:
+    """Tables below each other, without those that hold no mode."""
+    filled = [part for part in parts if part["modes"].any()]
+    return pd.concat(filled or [parts[0][:0]], ignore_index=True)
