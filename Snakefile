@@ -6,7 +6,8 @@
 #   snakemake -j1 results/default/rigidity/n~256/phi~0.873/kt~3e-05/seeds~0003-0003.nc
 #   snakemake -j1 benchmarks                            a table of speeds
 #
-# trajectories -> packings -> {rigidity, step_strain, spectra, probes} -> points -> ensemble -> figures
+# trajectories -> packings -> {rigidity, step_strain, spectra, probes} -> points -> ensemble
+#                        \-> fields -> figures                   ensemble -> figures, claims
 
 
 include: "workflow/rules/common.smk"
@@ -14,6 +15,7 @@ include: "workflow/rules/packings.smk"
 include: "workflow/rules/response.smk"
 include: "workflow/rules/ensembles.smk"
 include: "workflow/rules/checks.smk"
+include: "workflow/rules/claims.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/benchmarks.smk"
 
@@ -23,5 +25,6 @@ rule all:
     input:
         ensemble=rules.ensemble.output,
         checks=rules.checks.output,
+        claims=rules.claims.output,
         fields=files_of("fields", scene.field_points),
         figures=figures(),

@@ -10,7 +10,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from grainmodes.blocks import _response, _threshold
+from grainmodes.blocks import rattler_threshold, response_block
 from grainmodes.dataset import Block
 from grainmodes.fields import (
     affine_field,
@@ -37,7 +37,7 @@ def fields_block(
     frequencies: tuple[float, ...],
 ) -> Block:
     """The fields of the first sample of a block, and its modes nearest to `frequencies` (1/t_0)."""
-    rule, threshold = interaction(law), _threshold(rattlers, law)
+    rule, threshold = interaction(law), rattler_threshold(rattlers, law)
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, rule)
@@ -51,7 +51,7 @@ def fields_block(
         return row | _modes(packing, rule, frequencies, threshold)
 
     config = {"law": asdict(law), "rattlers": asdict(rattlers), "step_strain": asdict(step)}
-    return _response(_first(packings), "fields", config, law, sample)
+    return response_block(_first(packings), "fields", config, law, sample)
 
 
 def _first(packings: Block) -> Block:

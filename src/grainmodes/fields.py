@@ -22,9 +22,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse.linalg import eigsh
 
-from grainmodes.jacobian import jacobian
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.neighbours import RESOLUTION
 from grainmodes.modes import mode_sum
@@ -32,10 +30,7 @@ from grainmodes.packing import Packing, find_contacts, rattlers
 from grainmodes.parameters import StepStrain
 from grainmodes.protocols.step_strain import relaxed_steps
 from grainmodes.rigidity import rigidity
-from grainmodes.spectrum import spectrum
-
-TRANSLATIONS = 2
-"""Zero modes of every rigid backbone."""
+from grainmodes.spectrum import Problem, problem, spectrum, windows
 
 
 @dataclass(frozen=True)
@@ -107,34 +102,21 @@ def nearest_modes(
     if packing.history is not None:
         raise ValueError("single modes need a symmetric Jacobian, every s = 0")
     gone = _rattlers(packing, threshold)
-    backbone = packing.without(gone)
-    matrix = jacobian(backbone, find_contacts(backbone), interaction)
-    pairs = [_vibration(matrix, frequency**2, backbone.n) for frequency in frequencies]
+    of = problem(packing, interaction, threshold)
+    pairs = [_nearest(of, frequency**2) for frequency in frequencies]
     values, vectors = np.array([value for value, _ in pairs]), np.array([r for _, r in pairs])
     return NearestModes(
         np.sqrt(np.abs(values)),
-        np.stack([_on_all(vector.reshape(backbone.n, -1), gone) for vector in vectors]),
-        np.linalg.norm(matrix @ vectors.T - vectors.T * values, axis=0),
+        np.stack([_on_all(vector.reshape(-1, of.k), gone) for vector in vectors]),
+        np.linalg.norm(of.matrix @ vectors.T - vectors.T * values, axis=0),
     )
 
 
-def _vibration(matrix, shift: float, n: int) -> tuple[float, np.ndarray]:
-    """The eigenpair nearest a shift among those that are no translation.
-
-    A translation has Σ_i R_i of length √N, any other mode has zero. The sign makes the largest
-    component positive.
-    """
-    values, vectors = _nearest(matrix, shift, TRANSLATIONS + 1)
-    drift = vectors.reshape(n, -1, len(values))[:, :2].sum(axis=0)
-    distance = np.where((drift**2).sum(axis=0) < n / 2, np.abs(values - shift), np.inf)
-    vector = vectors[:, np.argmin(distance)]
-    return values[np.argmin(distance)], vector * np.sign(vector[np.argmax(np.abs(vector))])
-
-
-def _nearest(matrix, shift: float, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """The eigenpairs nearest a shift, from a given start: ARPACK's own is random."""
-    start = np.random.default_rng(0).standard_normal(matrix.shape[0])
-    return eigsh(matrix, k=count, sigma=shift, v0=start)
+def _nearest(of: Problem, shift: float) -> tuple[float, np.ndarray]:
+    """The eigenpair nearest a shift that is no translation; its largest component is positive."""
+    (value,), vectors = windows.nearest(of.shift(), shift, 1)
+    vector = vectors[:, 0]
+    return value, vector * np.sign(vector[np.argmax(np.abs(vector))])
 
 
 def _displacement(before: Packing, after: Packing) -> np.ndarray:

@@ -25,19 +25,14 @@ def mode_sum(
     spectrum: Spectrum,
     threshold: int = 2,
     loaded: bool = False,
-    among: np.ndarray | None = None,
 ) -> Moduli:
     """g of a packing, and its non-affine field, from all modes of its J without rattlers.
-
-    `among`, (M,) bool, lets only these modes respond; g_A is that of the whole packing.
 
     Raises:
         ValueError: the Jacobian is not symmetric.
     """
     step = _step(packing, interaction, threshold, loaded)
     elastic = elastic_modes(spectrum.eigenvalue)
-    if among is not None:
-        elastic = elastic[among[elastic]]
     modes = spectrum.modes[:, elastic]
     weight = modes.T @ step.force.ravel() / spectrum.eigenvalue[elastic]
     return step.moduli(modes @ weight)

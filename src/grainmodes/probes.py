@@ -21,13 +21,13 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
-from grainmodes.blocks import _response, _threshold
+from grainmodes.blocks import rattler_threshold, response_block
 from grainmodes.dataset import Block
 from grainmodes.hessian import effective_hessian
 from grainmodes.jacobian import jacobian
 from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.laws import Interaction, interaction
-from grainmodes.modes import mode_sum
+from grainmodes.modes import ModeRigidity
 from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters import ContactLaw, Protocol, StepStrain
 from grainmodes.protocols.frictional_compression import frictional_compression
@@ -77,7 +77,7 @@ def probes_block(packings: Block, law: ContactLaw, protocol: Protocol) -> Block:
 
     parts = {"rattlers": protocol.rattlers, "step_strain": protocol.step_strain}
     config = {"law": asdict(law)} | {name: asdict(part) for name, part in parts.items()}
-    block = _response(packings, "probes", config, law, sample)
+    block = response_block(packings, "probes", config, law, sample)
     failures = block.attributes["failures"] | sentences
     return Block(block.variables, block.attributes | {"failures": failures})
 
@@ -96,7 +96,7 @@ def probes(
     packing: Packing, law: ContactLaw, protocol: Protocol, attempt: Attempts
 ) -> dict[str, object]:
     """The row of a jammed packing; what failed is NaN and stands in `attempt.sentences`."""
-    rule, threshold = interaction(law), _threshold(protocol.rattlers, law)
+    rule, threshold = interaction(law), rattler_threshold(protocol.rattlers, law)
     row = {
         "g_forward_by_strain": [
             attempt(np.nan, forward_rigidity, packing, rule, step, threshold)
@@ -132,8 +132,10 @@ def _frictional(
 
 def translational_rigidity(packing: Packing, rule: Interaction, threshold: int) -> float:
     """g where the modes with ψ^T > 1/2 alone respond."""
-    found = spectrum(packing, rule, threshold)
-    return mode_sum(packing, rule, found, threshold, among=found.psi_rotational < 0.5).g
+    by_mode = ModeRigidity(packing, rule, threshold)
+    found = spectrum(packing, rule, threshold, forces=by_mode.forces)
+    translational = found.psi_rotational < 0.5
+    return by_mode.g_affine + float(by_mode.contributions(found)[translational].sum())
 
 
 def hessian_difference(packing: Packing, rule: Interaction, stiffness: str) -> float:

@@ -335,7 +335,7 @@ def test_without_rotation_there_is_no_other_hessian():
 SPECTRA = {"spectrum", "spectrum_rattlers", "spectrum_hessian"}
 STAGES = ["compress", "rigidity", "step_strain", *sorted(SPECTRA), "fields", "probes", "ensemble"]
 DEPENDENCE = {
-    "protocol.compression.phi_step": (5e-5, {"compress", "probes", "ensemble"}),
+    "protocol.compression.phi_step": (5e-5, {"compress", "ensemble"}),
     "protocol.rattlers.threshold": (
         1,
         {"rigidity", "fields", "probes", "ensemble"} | SPECTRA,

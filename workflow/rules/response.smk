@@ -34,7 +34,7 @@ rule step_strain:
 rule spectrum:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.blocks:spectrum_block"),
+        code=sources("grainmodes.spectrum_blocks:spectrum_block"),
     output:
         f"{STUDY}/spectrum/{RESPONSE}",
     params:
@@ -49,7 +49,7 @@ rule spectrum:
 rule spectrum_rattlers:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.blocks:spectrum_block"),
+        code=sources("grainmodes.spectrum_blocks:rattlers_block"),
     output:
         f"{STUDY}/spectrum_rattlers/{RESPONSE}",
     params:
@@ -64,7 +64,7 @@ rule spectrum_rattlers:
 rule spectrum_hessian:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.blocks:spectrum_block"),
+        code=sources("grainmodes.spectrum_blocks:hessian_block"),
     output:
         f"{STUDY}/spectrum_hessian/{RESPONSE}",
     params:
@@ -79,7 +79,7 @@ rule spectrum_hessian:
 rule probes:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.probes"),
+        code=sources("grainmodes.probes:probes_block"),
     output:
         f"{STUDY}/probes/{RESPONSE}",
     params:
@@ -94,7 +94,7 @@ rule probes:
 rule fields:
     input:
         packings=first_packings,
-        code=sources("grainmodes.field_blocks"),
+        code=sources("grainmodes.field_blocks:fields_block"),
     output:
         f"{STUDY}/fields/{POINT}",
     params:

@@ -100,7 +100,7 @@ class Scene:
             "spectrum_rattlers": spectrum | {"observables": {"spectrum": kind}},
             "spectrum_hessian": spectrum,
             "fields": _part(law, protocol, "rattlers", "step_strain"),
-            "probes": _part(law, protocol, "compression", "rattlers", "step_strain"),
+            "probes": _part(law, protocol, "rattlers", "step_strain"),
             "ensemble": _part(law, protocol, *protocol) | {"study": self.study},
         }
         return json.dumps(parts[stage], sort_keys=True)

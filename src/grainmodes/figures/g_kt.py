@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.figures import appearance
 from grainmodes.figures.rigidity_rows import COLUMNS, rows
-from grainmodes.figures.selection import Options, curves, largest_or, positive
+from grainmodes.figures.selection import Options, curves, positive
 
 __all__ = ["COLUMNS", "draw", "table"]
 
@@ -22,7 +22,7 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         ValueError: the ensemble has no k_T > 0.
     """
     positive(ensemble["kt"].to_numpy(), "g_kt")
-    found = rows(ensemble, KINDS, largest_or(options.n, ensemble["n"].to_numpy(), "n"))
+    found = rows(ensemble, KINDS, options.n)
     asked = None if options.phi is None else (options.phi,)
     return found[found["phi"].isin(curves(asked, ensemble["phi"].to_numpy(), "phi"))]
 

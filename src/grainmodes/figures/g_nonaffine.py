@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.figures import appearance
 from grainmodes.figures.rigidity_rows import COLUMNS, rows
-from grainmodes.figures.selection import Options, curves, largest_or
+from grainmodes.figures.selection import Options, curves
 
 __all__ = ["COLUMNS", "draw", "table"]
 
@@ -23,7 +23,7 @@ LINEAR_BELOW = 0.02
 
 def table(ensemble, options: Options) -> pd.DataFrame:
     """G_NA and its standard error, with the columns `COLUMNS`."""
-    found = rows(ensemble, KINDS, largest_or(options.n, ensemble["n"].to_numpy(), "n"))
+    found = rows(ensemble, KINDS, options.n)
     return found[found["kt"].isin(curves(options.kt, ensemble["kt"].to_numpy(), "kt"))]
 
 

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.figures import appearance
 from grainmodes.figures.rigidity_rows import COLUMNS, rows
-from grainmodes.figures.selection import Options, curves, largest_or
+from grainmodes.figures.selection import Options, curves
 
 __all__ = ["COLUMNS", "draw", "table"]
 
@@ -20,7 +20,7 @@ LARGEST, SMALLEST, DOT = 8.5, 6.5, 1.7
 
 def table(ensemble, options: Options) -> pd.DataFrame:
     """G and its standard error, with the columns `COLUMNS`."""
-    found = rows(ensemble, KINDS, largest_or(options.n, ensemble["n"].to_numpy(), "n"))
+    found = rows(ensemble, KINDS, options.n)
     return found[found["kt"].isin(curves(options.kt, ensemble["kt"].to_numpy(), "kt"))]
 
 

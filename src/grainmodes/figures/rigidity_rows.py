@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
 
 from grainmodes.ensemble import normal_law
 from grainmodes.ensemble.averages import averages
+from grainmodes.figures.selection import largest_or
 
 UNIT = "k_N d^(1/2); harmonic: k_N"
 
@@ -22,12 +24,12 @@ COLUMNS = {
 }
 
 
-def rows(ensemble, kinds: dict[str, str], n: float) -> pd.DataFrame:
+def rows(ensemble, kinds: dict[str, str], asked: int | None) -> pd.DataFrame:
     """Means of several variables of an ensemble below each other, at one N.
 
     Args:
         kinds: word for the column `kind` → variable of the ensemble; what it lacks is left out.
-        n: number of grains.
+        asked: number of grains; None is the largest that has a G.
 
     Returns:
         columns `COLUMNS`; points without a converged sample are left out.
@@ -36,7 +38,10 @@ def rows(ensemble, kinds: dict[str, str], n: float) -> pd.DataFrame:
     means = averages(ensemble, list(present.values()) or list(kinds.values()))
     parts = [_one(means, kind, name) for kind, name in present.items()]
     table = pd.concat(parts, ignore_index=True).assign(law=normal_law(ensemble))[list(COLUMNS)]
-    return table[(table["n"] == n) & (table["samples"] > 0)].reset_index(drop=True)
+    table = table[table["samples"] > 0]
+    having = table["n"] if len(table) else ensemble["n"]
+    n = largest_or(asked, np.unique(having.to_numpy()), "n")
+    return table[table["n"] == n].reset_index(drop=True)
 
 
 def _one(means: pd.DataFrame, kind: str, name: str) -> pd.DataFrame:
