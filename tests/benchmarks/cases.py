@@ -26,7 +26,8 @@ from grainmodes.protocols.compression import advanced, balanced, placed
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
 from grainmodes.rigidity import rigidity
-from grainmodes.spectrum import spectrum
+from grainmodes.spectrum import SpectrumChoices, full_spectrum, problem, spectrum
+from grainmodes.spectrum.counting import counts, rotational_sums
 
 HERTZ = Hertz(1.0)
 PROTOCOL = Compression()
@@ -116,6 +117,49 @@ def all_modes(n: int) -> float:
     packing, rule = balanced_at(n, 0.9), interaction(ContactLaw(kt=1e-4))
     spectrum(quenched(16, 0.9), rule)
     return cpu(spectrum, packing, rule)
+
+
+def density_of_states(n: int, backend: str = "auto") -> float:
+    """Modes in 159 bins from counts at 160 edges, ω t_0 = 1e-6 … 3."""
+    shift = weakly_frictional(n).shift(backend)
+    counts(shift, np.array([0.5]))
+    return cpu(counts, shift, np.geomspace(1e-6, 3.0, 160))
+
+
+def density_of_states_superlu(n: int) -> float:
+    """`density_of_states` by SciPy alone."""
+    return density_of_states(n, "superlu")
+
+
+def rotational_share(n: int) -> float:
+    """ψ^R with its error in 20 bins over both bands, counts included."""
+    of = weakly_frictional(n)
+    shift = of.shift()
+    counts(shift, np.array([0.5]))
+    edges = np.concatenate([np.linspace(1e-3, 2e-2, 9), np.linspace(0.1, 1.3, 13)[1:]])
+
+    def measure():
+        below = counts(shift, edges)
+        found = rotational_sums(shift, below, edges, of.k, substeps=1)
+        print("rotational_share: largest error of a mean", _worst(found.error, np.diff(below)))
+
+    return cpu(measure)
+
+
+def _worst(error: np.ndarray, count: np.ndarray) -> float:
+    many = count > 60
+    return float((error[many] / count[many]).max())
+
+
+def all_pairs(n: int) -> float:
+    """All eigenpairs with ψ and p, in certified windows."""
+    of = weakly_frictional(n)
+    return cpu(lambda: full_spectrum(of, choices=SpectrumChoices("windows")))
+
+
+def weakly_frictional(n: int):
+    """The eigenproblem at φ = 0.90, k_T/k_N = 1e-4."""
+    return problem(balanced_at(n, 0.9), interaction(ContactLaw(kt=1e-4)))
 
 
 def start_up(n: int) -> float:

@@ -12,6 +12,7 @@ from __future__ import annotations
 import platform
 import resource
 import sys
+from importlib.util import find_spec
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -29,7 +30,13 @@ CASES = (
     ("frictional dynamics with history, per grain and step", "frictional_step", 4096, 50.0, "ns"),
     ("trajectory with eight phi, each to 1e-14", "trajectory", 4096, 300.0, "s"),
     ("g, g_A, g_NA from a packing", "moduli", 4096, 0.25, "s"),
+    ("g, g_A, g_NA from a packing", "moduli", 65536, 3.0, "s"),
     ("all eigenvalues with psi", "all_modes", 1024, 9.0, "s"),
+    ("all eigenpairs with psi and p, in windows", "all_pairs", 4096, 320.0, "s"),
+    ("density of states on 160 edges", "density_of_states", 4096, 6.0, "s"),
+    ("the same, SciPy alone", "density_of_states_superlu", 4096, 25.0, "s"),
+    ("density of states on 160 edges", "density_of_states", 65536, 240.0, "s"),
+    ("psi^R in 20 bins, with its error", "rotational_share", 65536, 120.0, "s"),
     ("start-up of a sample job", "start_up", 16, 1.0, "s"),
 )
 
@@ -44,7 +51,10 @@ def measured(name: str, n: int) -> tuple[float, float]:
 
 def main() -> None:
     """Run every case in a fresh process and print its row as it comes."""
-    print(f"{platform.machine()}, Python {platform.python_version()}, one thread", flush=True)
+    fast = "PARDISO" if find_spec("pypardiso") else "SuperLU"
+    print(
+        f"{platform.machine()}, Python {platform.python_version()}, one thread, {fast}", flush=True
+    )
     print(f"{'work':54} {'N':>6} {'measured':>10} {'to reach':>9}      {'peak':>8}", flush=True)
     for title, name, n, target, unit in CASES:
         with get_context("spawn").Pool(1) as pool:

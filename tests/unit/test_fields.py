@@ -137,21 +137,18 @@ def test_single_modes_are_those_of_the_dense_spectrum(name, kt):
         assert abs(vector @ dense.modes[:, nearest]) == pytest.approx(1.0, abs=1e-6)
         assert vector[np.argmax(np.abs(vector))] > 0.0
         assert vector @ vector == pytest.approx(1.0, abs=1e-12)
-    # Far below every vibration the shift is so near the translations that they eat 8 digits.
-    assert found.residual.max() < 1e-9
-    assert found.residual[2:].max() < 1e-13
+    assert found.residual.max() < 1e-11
 
 
 def test_residuals_tell_what_is_no_mode(monkeypatch):
     packing, law = reference(MINIMAL[0])[1], elastic("hertz", 1.0)
     exact = nearest_modes(packing, law, (0.5,))
 
-    def shifted(matrix, shift, count):
-        values, vectors = np.full(count, shift), np.eye(matrix.shape[0])[:, :count]
-        return values, vectors
+    def shifted(of, shift):
+        return shift, np.eye(of.size)[0]
 
     monkeypatch.setattr("grainmodes.fields._nearest", shifted)
-    assert nearest_modes(packing, law, (0.5,)).residual[0] > 1e10 * exact.residual[0]
+    assert nearest_modes(packing, law, (0.5,)).residual[0] > 1e8 * exact.residual[0]
 
 
 def test_the_same_modes_come_every_time():

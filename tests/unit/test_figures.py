@@ -388,7 +388,7 @@ def test_one_sample_of_averages_has_the_error_stated_for_it(tmp_path):
     assert_allclose(filled["psi_standard_error"], 0.01)
 
 
-@pytest.mark.parametrize("name", FIGURES)
+@pytest.mark.parametrize("name", OF_ENSEMBLES)
 def test_a_study_without_a_jammed_sample_still_has_its_figures(name, tmp_path):
     kts, stages = (0.0, 1e-8, 1e-4), synthetic.WHOLE
     path = synthetic.ensemble(tmp_path, phis=(0.83,), kts=kts, seeds=1, stages=stages)

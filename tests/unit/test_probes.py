@@ -12,7 +12,7 @@ from grainmodes.dataset import Block, read_block, write_block
 from grainmodes.jacobian import jacobian
 from grainmodes.kernels.damping import Dashpot, Undamped
 from grainmodes.kernels.laws import Hertz
-from grainmodes.modes import mode_sum
+from grainmodes.modes import ModeRigidity, mode_sum
 from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters import ContactLaw, Protocol, StepStrain
 from grainmodes.protocols.frictional_compression import frictional_compression, loosened
@@ -80,12 +80,14 @@ def test_two_halves_of_the_modes_add_up():
     packing, law = reference(SMALL)[1], elastic(SMALL, KT)
     found = spectrum(packing, law)
     half = found.psi_rotational < 0.5
-    parts = [mode_sum(packing, law, found, among=mask).g_nonaffine for mask in (half, ~half)]
+    by_mode = ModeRigidity(packing, law)
+    shares = by_mode.contributions(spectrum(packing, law, forces=by_mode.forces))
     whole = mode_sum(packing, law, found)
     assert 0 < half.sum() < len(half)
-    assert sum(parts) == pytest.approx(whole.g_nonaffine, rel=1e-12)
-    nothing = mode_sum(packing, law, found, among=np.zeros(len(half), bool))
-    assert nothing.g == nothing.g_affine == whole.g_affine
+    assert shares.sum() == pytest.approx(whole.g_nonaffine, rel=1e-12)
+    assert by_mode.g_affine == pytest.approx(whole.g_affine, rel=1e-14)
+    translational = by_mode.g_affine + shares[half].sum()
+    assert probes.translational_rigidity(packing, law, 2) == pytest.approx(translational, rel=1e-12)
 
 
 @pytest.mark.parametrize("name", [SMALL, "harmonic_n64_phi0.900_seed1"])

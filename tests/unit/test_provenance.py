@@ -14,7 +14,7 @@ STAGES = {
     "pack": "grainmodes.blocks:packing_block",
     "rigidity": "grainmodes.blocks:rigidity_block",
     "step_strain": "grainmodes.blocks:step_strain_block",
-    "spectrum": "grainmodes.blocks:spectrum_block",
+    "spectrum": "grainmodes.spectrum_blocks:spectrum_block",
     "fields": "grainmodes.field_blocks:fields_block",
     "point": "grainmodes.ensemble:gather_point",
     "ensemble": "grainmodes.ensemble:write_ensemble",

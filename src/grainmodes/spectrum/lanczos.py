@@ -36,6 +36,14 @@ class Pairs(NamedTuple):
     vectors: np.ndarray
 
 
+class Ritz(NamedTuple):
+    """Approximate λ (S,), whether each has converged, and their y (S, S) in the basis."""
+
+    values: np.ndarray
+    converged: np.ndarray
+    y: np.ndarray
+
+
 class Krylov:
     """A Krylov space of the shift at which `shift` stands, grown block by block."""
 
@@ -76,13 +84,15 @@ class Krylov:
         null = self._shift.null
         return block - null @ (null.T @ block)
 
-    def pairs(self, low: float, high: float) -> tuple[int, Pairs]:
-        """Ritz values in [low, high), and those among them that have converged, as pairs."""
+    def ritz(self) -> Ritz:
+        """All approximate eigenpairs that the space holds."""
         part = slice(0, self.size)
         theta, y = scipy.linalg.eigh(self._projected[part, part])
-        value = self._sigma + 1.0 / theta
         residual = np.linalg.norm(self._remainder @ y[self.size - self._block :], axis=0)
-        inside = (value >= low) & (value < high)
-        good = np.flatnonzero(inside & (residual <= TOLERANCE * np.abs(theta)))
-        good = good[np.argsort(value[good], kind="stable")]
-        return int(inside.sum()), Pairs(value[good], self._basis[:, part] @ y[:, good])
+        values = self._sigma + 1.0 / theta
+        return Ritz(values, residual <= TOLERANCE * np.abs(theta), y)
+
+    def pairs(self, ritz: Ritz, chosen: np.ndarray) -> Pairs:
+        """The pairs of these numbers among the approximate ones, ascending."""
+        chosen = chosen[np.argsort(ritz.values[chosen], kind="stable")]
+        return Pairs(ritz.values[chosen], self._basis[:, : self.size] @ ritz.y[:, chosen])

@@ -142,16 +142,17 @@ def eigenpairs(shift: SymmetricShift, window: Window, seed: int = 0) -> Pairs:
     below = shift.count
     krylov.grow(int(FIRST * modes) + BLOCK)
     while True:
-        inside, pairs = krylov.pairs(low, high)
-        if len(pairs.values) == modes == inside:
-            return pairs
+        ritz = krylov.ritz()
+        inside = np.flatnonzero((ritz.values >= low) & (ritz.values < high))
+        if len(inside) == modes and ritz.converged[inside].all():
+            return krylov.pairs(ritz, inside)
         if krylov.full:
             break
         krylov.grow(krylov.size + 3 * BLOCK)
     if high - low <= RESOLUTION * high:
         raise WindowError(
-            f"{len(pairs.values)} eigenpairs converged between {low} and {high}, where {modes} "
-            "were counted"
+            f"{np.count_nonzero(ritz.converged[inside])} eigenpairs converged between {low} and "
+            f"{high}, where {modes} were counted"
         )
     lower = below - shift.to(low).count
     halves = Window(low, sigma, lower), Window(sigma, high, modes - lower)
@@ -165,7 +166,7 @@ def _block(shift: SymmetricShift) -> int:
 
 
 def nearest(shift: SymmetricShift, sigma: float, modes: int, seed: int = 0) -> Pairs:
-    """The `modes` eigenpairs nearest σ, ascending.
+    """The `modes` eigenpairs nearest σ, ascending, the known zero modes left out.
 
     Raises:
         WindowError: they did not converge.
@@ -174,14 +175,14 @@ def nearest(shift: SymmetricShift, sigma: float, modes: int, seed: int = 0) -> P
     krylov = Krylov(shift.to(sigma), sigma, _block(shift), largest, seed)
     krylov.grow(int(FIRST * modes) + 2 * BLOCK)
     while True:
-        _, pairs = krylov.pairs(-np.inf, np.inf)
-        close = np.sort(np.argsort(np.abs(pairs.values - sigma), kind="stable")[:modes])
-        if len(close) == modes or krylov.full:
-            break
+        ritz = krylov.ritz()
+        close = np.argsort(np.abs(ritz.values - sigma), kind="stable")[:modes]
+        if len(close) == modes and ritz.converged[close].all():
+            return krylov.pairs(ritz, close)
+        if krylov.full:
+            found = np.count_nonzero(ritz.converged[close])
+            raise WindowError(f"{found} of {modes} eigenpairs nearest {sigma} converged")
         krylov.grow(krylov.size + 2 * BLOCK)
-    if len(close) < modes:
-        raise WindowError(f"{len(close)} of {modes} eigenpairs nearest {sigma} converged")
-    return Pairs(pairs.values[close], pairs.vectors[:, close])
 
 
 def measured(
