@@ -1,5 +1,6 @@
 # make study      packings, spectra and figures of config/default.yaml
 # make test       the tests (minutes)      make test-all   every test, the slow ones too
+# make pardiso    add a faster sparse factorisation to the environment (x86-64, MKL's licence)
 # make lint       style and the walls between modules
 # make clean      forget results, compiled kernels and Snakemake's bookkeeping
 #
@@ -12,7 +13,7 @@ CONFIG ?=
 BIN := .venv/bin
 READY := .venv/ready
 
-.PHONY: study test test-all lint clean
+.PHONY: study test test-all pardiso lint clean
 .NOTPARALLEL:
 
 study: $(READY)
@@ -23,6 +24,9 @@ test: $(READY)
 
 test-all: $(READY)
 	$(BIN)/python -m pytest -m ""
+
+pardiso: $(READY)
+	$(BIN)/python -m pip install --quiet --requirement requirements-pardiso.lock
 
 lint: $(READY)
 	$(BIN)/ruff check .

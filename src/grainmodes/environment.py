@@ -23,9 +23,14 @@ THREAD_VARIABLES = (
 
 
 def prepare() -> None:
-    """Pin the threads that the environment leaves open, and set NUMBA_CACHE_DIR."""
+    """Pin the threads that the environment leaves open, and set NUMBA_CACHE_DIR.
+
+    MKL, where PARDISO is installed, takes one branch of its code whatever the alignment of arrays,
+    so that the same input gives the same bytes.
+    """
     for name in THREAD_VARIABLES:
         os.environ.setdefault(name, "1")
+    os.environ.setdefault("MKL_CBWR", "AUTO")
     os.environ["NUMBA_CACHE_DIR"] = str(numba_cache())
 
 

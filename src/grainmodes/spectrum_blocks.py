@@ -39,9 +39,14 @@ BINNED = ("counts", "bands")
 
 
 def spectrum_block(
-    packings: Block, law: ContactLaw, rattlers: Rattlers, kind: str, choices: SpectrumChoices
+    packings: Block,
+    law: ContactLaw,
+    rattlers: Rattlers,
+    kind: str,
+    choices: SpectrumChoices,
+    processes: int = 1,
 ) -> Block:
-    """The spectrum of every packing without its rattlers."""
+    """The spectrum of every packing without its rattlers; `processes` share its windows."""
     rule, threshold = interaction(law), rattler_threshold(rattlers, law)
     edges = fixed_edges(law.kt, law.normal, choices.fineness)
 
@@ -53,10 +58,10 @@ def spectrum_block(
         if kind in BINNED:
             return _bins(band_averages(of, edges, kind == "bands", choices), kind)
         if kind == "eigenvalues" or not of.symmetric:
-            found = full_spectrum(of, kind == "modes", choices=choices)
+            found = full_spectrum(of, kind == "modes", None, choices, processes)
             return _modes(found, _columns(packing, law), kind)
         by_mode = ModeRigidity(packing, rule, threshold)
-        found = full_spectrum(of, forces=by_mode.forces, choices=choices)
+        found = full_spectrum(of, True, by_mode.forces, choices, processes)
         shares = by_mode.contributions(found)
         return _modes(found, _columns(packing, law), kind) | {
             "g_mode_sum": by_mode.g_affine + float(shares.sum())
@@ -65,15 +70,16 @@ def spectrum_block(
     return response_block(packings, "spectrum", _config(law, rattlers, kind, choices), law, sample)
 
 
-def rattlers_block(packings: Block, law: ContactLaw, kind: str, choices: SpectrumChoices) -> Block:
+def rattlers_block(
+    packings: Block, law: ContactLaw, kind: str, choices: SpectrumChoices, processes: int = 1
+) -> Block:
     """The spectrum of every packing with its rattlers left in J: A, App. E."""
     rule = interaction(law)
 
     def sample(number: int) -> dict[str, object]:
         packing, _ = jammed_packing(packings, number, rule)
-        found = full_spectrum(
-            problem(packing, rule, keep_rattlers=True), kind == "modes", choices=choices
-        )
+        of = problem(packing, rule, keep_rattlers=True)
+        found = full_spectrum(of, kind == "modes", None, choices, processes)
         row = _modes(found, _columns(packing, law), kind)
         kept = ("eigenvalue", "psi_rotational", "participation_ratio", "mode_count")
         renamed = {f"{name}_rattlers": row[name] for name in kept if name in row}

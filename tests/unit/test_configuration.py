@@ -143,7 +143,8 @@ MISTAKES = [
     (
         "grid.observables",
         {"rattlers": True, "spectrum": "none"},
-        "grids[0].observables.rattlers = True: observables.spectrum is none",
+        "grids[0].observables.rattlers = True: observables.spectrum is none, "
+        "allowed with rattlers are eigenvalues and modes",
     ),
     ("protocol.spectrum.method", "lanczos", "one of auto, dense, windows, counting"),
     ("protocol.spectrum.factorisation", "mumps", "one of auto, superlu, pardiso"),

@@ -42,7 +42,7 @@ rule spectrum:
     message:
         f"Spectrum at {AT}."
     shell:
-        "grainmodes spectrum {input.packings} --kt {wildcards.kt}"
+        "grainmodes spectrum {input.packings} --kt {wildcards.kt} --processes {threads}"
         " --settings {params.settings:q} -o {output}"
 
 
@@ -58,6 +58,7 @@ rule spectrum_rattlers:
         f"Spectrum with rattlers at {AT}."
     shell:
         "grainmodes spectrum {input.packings} --variant rattlers --kt {wildcards.kt}"
+        " --processes {threads}"
         " --settings {params.settings:q} -o {output}"
 
 

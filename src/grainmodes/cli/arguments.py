@@ -98,6 +98,9 @@ def _spectrum(commands) -> None:
         default="backbone",
         help="J without its rattlers, J with them, or the effective Hessian",
     )
+    command.add_argument(
+        "--processes", type=_positive, default=1, help="processes that share the windows of a J"
+    )
 
 
 def _probes(commands) -> None:
@@ -243,6 +246,12 @@ def _seed_range(text: str) -> range:
         return parse_seeds(text if "-" in text else f"{text}-{text}")
     except ValueError as error:
         raise argparse.ArgumentTypeError(str(error)) from error
+
+
+def _positive(text: str) -> int:
+    if not (text.isdigit() and int(text) > 0):
+        raise argparse.ArgumentTypeError(f"{text!r} is no whole number above 0")
+    return int(text)
 
 
 def _json(text: str) -> dict:

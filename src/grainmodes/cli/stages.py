@@ -82,9 +82,10 @@ def spectrum(arguments: Namespace) -> None:
             "observables.spectrum = 'none': allowed here are counts, bands, eigenvalues and modes"
         )
     rattlers, choices = scene.protocol.rattlers, scene.protocol.spectrum
+    processes = arguments.processes
     make = {
-        "backbone": lambda of: spectrum_block(of, law, rattlers, kind, choices),
-        "rattlers": lambda of: rattlers_block(of, law, kind, choices),
+        "backbone": lambda of: spectrum_block(of, law, rattlers, kind, choices, processes),
+        "rattlers": lambda of: rattlers_block(of, law, kind, choices, processes),
         "hessian": lambda of: hessian_block(of, law, rattlers, choices),
     }
     with _opened(arguments.packings, "packings") as packings:

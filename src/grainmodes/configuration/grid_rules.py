@@ -88,8 +88,9 @@ def _blocks(config: dict) -> Iterator[str]:
 
 def _rattlers(config: dict) -> Iterator[str]:
     for place, grid in enumerate(config["grids"]):
-        if grid["observables"]["rattlers"] and grid["observables"]["spectrum"] == "none":
+        kind = grid["observables"]["spectrum"]
+        if grid["observables"]["rattlers"] and kind not in ("eigenvalues", "modes"):
             yield (
-                f"grids[{place}].observables.rattlers = True: observables.spectrum is none, "
-                "allowed with rattlers are counts, bands, eigenvalues and modes"
+                f"grids[{place}].observables.rattlers = True: observables.spectrum is {kind}, "
+                "allowed with rattlers are eigenvalues and modes"
             )
