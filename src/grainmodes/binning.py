@@ -28,8 +28,9 @@ LOWEST = 0.01
 SAFE = 1e-7
 """Lowest omega t_0 that counts can tell from a zero mode."""
 
-STIFFEST = {"hertz": 1.5, "harmonic": 2.5}
-"""Last edge of counted bins at k_T = 0, by normal law."""
+STIFFEST = 2.5
+"""Last edge of counted bins at k_T = 0, 1/t_0; the stiffest Hertzian mode lies near 1.4, the
+stiffest harmonic one, and that of the effective Hessian as printed, near 2.4."""
 
 
 class Sums(NamedTuple):
@@ -85,18 +86,17 @@ def bin_edges(kappa: float, lowest: float, highest: float, fineness: float = 1.0
     return edges
 
 
-def fixed_edges(kappa: float, normal: str, fineness: float) -> np.ndarray:
+def fixed_edges(kappa: float, fineness: float) -> np.ndarray:
     """A's bins over a range that depends on the point alone, for spectra that are only counted.
 
     From 0.01 omega_R, at most 1e-3 and at least the lowest safe edge 1e-7, to beyond the stiffest
-    mode of usual packings: 1.5 (1 + kappa)^(1/2) with Hertzian, 2.5 (1 + kappa)^(1/2) with harmonic
-    contacts. Modes outside are counted as such.
+    mode of usual packings, 2.5 (1 + kappa)^(1/2). Modes outside are counted as such.
 
     Returns:
         (B + 1,) 1/t_0, ascending.
     """
     lowest = np.clip(LOWEST * np.sqrt(kappa), SAFE, 1e-3) if kappa > 0.0 else 1e-3
-    return bin_edges(kappa, lowest, STIFFEST[normal] * np.sqrt(1.0 + kappa), fineness)
+    return bin_edges(kappa, lowest, STIFFEST * np.sqrt(1.0 + kappa), fineness)
 
 
 def _redivided(edges: np.ndarray, start: float, stop: float, divisions: float) -> np.ndarray:

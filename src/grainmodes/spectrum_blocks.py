@@ -48,7 +48,7 @@ def spectrum_block(
 ) -> Block:
     """The spectrum of every packing without its rattlers; `processes` share its windows."""
     rule, threshold = interaction(law), rattler_threshold(rattlers, law)
-    edges = fixed_edges(law.kt, law.normal, choices.fineness)
+    edges = fixed_edges(law.kt, choices.fineness)
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, rule)
@@ -94,7 +94,7 @@ def hessian_block(
 ) -> Block:
     """Modes of the effective Hessian in bins, tangent stiffnesses and printed ones: A, (H4)."""
     rule, threshold = interaction(law), rattler_threshold(rattlers, law)
-    edges = fixed_edges(law.kt, law.normal, choices.fineness)
+    edges = fixed_edges(law.kt, choices.fineness)
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, rule)

@@ -12,7 +12,7 @@ from grainmodes.spectrum import band_averages, bands, problem
 from grainmodes.spectrum.counting import counts, rotational_sums
 from specimens import BACKENDS, elastic, quenched
 
-FINE = fixed_edges(1e-4, "hertz", 0.1)
+FINE = fixed_edges(1e-4, 0.1)
 COUNTING = SpectrumChoices("counting")
 
 
@@ -20,7 +20,7 @@ COUNTING = SpectrumChoices("counting")
 @pytest.mark.parametrize("kt", [0.0, 1e-8, 1e-4, 1.0])
 def test_bins_of_few_modes_are_exact(kt, backend):
     of = problem(quenched(256, 0.90), elastic("hertz", kt))
-    edges = fixed_edges(kt, "hertz", 0.1)
+    edges = fixed_edges(kt, 0.1)
     counted = band_averages(of, edges, True, SpectrumChoices("counting", backend))
     whole = band_averages(of, edges, True, SpectrumChoices("dense"))
     assert (counted.method, whole.method) == ("counting", "dense")
@@ -91,7 +91,7 @@ def test_fractions_that_are_0_or_1_are_counted_exactly(substeps):
 
 def test_frictionless_modes_have_no_rotation():
     of = problem(quenched(256, 0.90), elastic("hertz", 0.0))
-    found = band_averages(of, fixed_edges(0.0, "hertz", 0.05), True, COUNTING)
+    found = band_averages(of, fixed_edges(0.0, 0.05), True, COUNTING)
     assert np.nanmax(found.psi_rotational) == 0.0
 
 
