@@ -153,9 +153,9 @@ VARIABLES: dict[str, Variable] = {
     ),
     "mode_count": Variable(BLOCK, "i8", "1", "number of modes: degrees of freedom of the backbone"),
     # probes of single claims
-    "probe_strain": Variable(("seed", "strain"), "f8", "1", "step strains of g_forward_by_strain"),
+    "probe_strain": Variable(("seed", "probe"), "f8", "1", "step strains of g_forward_by_strain"),
     "g_forward_by_strain": Variable(
-        ("seed", "strain"), "f8", MODULUS, "rigidity from one forward step strain of each size"
+        ("seed", "probe"), "f8", MODULUS, "rigidity from one forward step strain of each size"
     ),
     "g_translational": Variable(
         BLOCK, "f8", MODULUS, "g as a sum over the modes with psi^R < 1/2 alone"

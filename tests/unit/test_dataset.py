@@ -116,3 +116,10 @@ def test_every_variable_is_described_in_the_documentation():
         expected = f"{', '.join(variable.dimensions)} | {variable.units} | {meaning}"
         assert rows.get(name) == expected, f"docs/data.md needs: | `{name}` | {expected} |"
     assert set(rows) == set(VARIABLES)
+
+
+def test_only_coordinates_share_the_name_of_a_dimension():
+    """netCDF takes a variable of the name of a dimension for its scale."""
+    dimensions = {dimension for row in VARIABLES.values() for dimension in row.dimensions}
+    for name in dimensions & set(VARIABLES):
+        assert VARIABLES[name].dimensions == (name,)

@@ -28,7 +28,7 @@ STAGES = (
 )
 """Values of the attribute `stage`, in the order in which names win."""
 
-PER_SAMPLE = (("seed",), *(("seed", name) for name in ("mode", "edge", "bin", "strain")))
+PER_SAMPLE = (("seed",), *(("seed", name) for name in ("mode", "edge", "bin", "probe")))
 """Dimensions of the variables that a point keeps."""
 
 
