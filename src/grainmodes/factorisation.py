@@ -141,10 +141,13 @@ class Pardiso:
     name = "pardiso"
     _ANALYSE, _FACTOR, _SOLVE = 11, 22, 33
     _ZERO_PIVOTS, _NEGATIVE = 14, 23
+    _ERRORS = {-2: MemoryError, -9: MemoryError, -4: ZeroPivotError, -7: ZeroPivotError}
 
     def __init__(self, pattern: sparse.csc_array):
         from pypardiso import PyPardisoSolver
+        from pypardiso.pardiso_wrapper import PyPardisoError
 
+        self._error = PyPardisoError
         self._solver = PyPardisoSolver(mtype=-2)
         for number, value in PARDISO_CHOICES.items():
             self._solver.set_iparm(number, value)
@@ -178,7 +181,10 @@ class Pardiso:
 
     def _run(self, phase: int, columns: np.ndarray) -> np.ndarray:
         self._solver.set_phase(phase)
-        return self._solver._call_pardiso(self._upper, columns)
+        try:
+            return self._solver._call_pardiso(self._upper, columns)
+        except self._error as error:
+            raise self._ERRORS.get(error.value, RuntimeError)(str(error)) from error
 
 
 def _release(solver, upper: sparse.csr_matrix, nothing: np.ndarray) -> None:

@@ -132,6 +132,21 @@ def test_an_unknown_factorisation_is_refused():
         SymmetricShift(sparse.csc_array(np.eye(2)), "cholesky")
 
 
+@pytest.mark.skipif("pardiso" not in BACKENDS, reason="needs pypardiso")
+@pytest.mark.parametrize(("code", "kind"), [(-2, MemoryError), (-4, ZeroPivotError)])
+def test_what_pardiso_runs_into_fails_a_sample_and_not_its_block(code, kind, monkeypatch):
+    from pypardiso.pardiso_wrapper import PyPardisoError
+
+    def fail(*arguments):
+        raise PyPardisoError(code)
+
+    factors = factorisation.factorisation(sparse.csc_array(np.eye(3)), "pardiso")
+    with monkeypatch.context() as patch:
+        patch.setattr(factors._solver, "_call_pardiso", fail)
+        with pytest.raises(kind, match=f"error code {code}"):
+            factors.refill(np.ones(3))
+
+
 def test_pardiso_must_be_installed_to_be_asked_for(monkeypatch):
     monkeypatch.setattr(factorisation, "find_spec", lambda name: None)
     assert factorisation.chosen("auto", 10**6) == "superlu"
