@@ -105,6 +105,19 @@ def test_two_factorisations_live_side_by_side(backend):
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
+def test_counts_are_right_where_a_leading_part_is_singular(backend):
+    of = problem(quenched(128, 0.86), elastic("hertz", 1.0))
+    values, shift = dense.eigenvalues(of), of.shift("superlu")
+    order = shift.to(0.5)._factors._order
+    leading = of.matrix[order][:, order].toarray()
+    shift = of.shift(backend)
+    for size in (1, 2, 3, 5, 9, 17):
+        for sigma in np.linalg.eigvalsh(leading[:size, :size]):
+            if np.abs(values / sigma - 1.0).min() > 1e-6:
+                assert shift.to(sigma).count == np.searchsorted(values, sigma)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
 def test_empty_rows_are_zero_modes(backend):
     matrix = sparse.csc_array(np.diag([0.0, 1.0, 0.0, 4.0]))
     shift = SymmetricShift(matrix, backend)
