@@ -4,8 +4,9 @@ SuperLU comes with SciPy and is always there. PARDISO (`pip install grainmodes[p
 ten times faster and gives the same counts and, to rounding, the same solutions. Both reorder the
 pattern once; after that each new set of values costs a numerical factorisation only.
 
-SuperLU does not pivot here: a symmetric permutation and L, U with the signs of an L D Lᵀ. PARDISO
-pivots with 1 × 1 and 2 × 2 blocks (Bunch–Kaufman) inside its supernodes.
+SuperLU does not pivot here: a symmetric permutation and L, U with the signs of an L D Lᵀ; factors
+that grow beyond `GROWTH` are refused. PARDISO pivots with 1 × 1 and 2 × 2 blocks (Bunch–Kaufman)
+inside its supernodes.
 """
 
 from __future__ import annotations
@@ -20,6 +21,10 @@ from scipy.sparse.linalg import splu
 
 PARDISO_FROM = 3000
 """Rows from which PARDISO is worth its start-up time."""
+
+GROWTH = 1e12
+"""Largest entry of the factors, in the largest of the matrix: beyond, the entries of the matrix are
+lost below the rounding of the factors, and with them the count."""
 
 PARDISO_CHOICES = {
     1: 1,  # the choices below instead of defaults
@@ -53,6 +58,10 @@ class Factorisation(Protocol):
 
 class ZeroPivotError(ArithmeticError):
     """A pivot vanishes: the shift is an eigenvalue to rounding."""
+
+
+PARDISO_ERRORS = {-2: MemoryError, -9: MemoryError, -4: ZeroPivotError, -7: ZeroPivotError}
+"""What the error codes of PARDISO mean; any other one is a mistake in the code."""
 
 
 def factorisation(pattern: sparse.csc_array, backend: str = "auto") -> Factorisation:
@@ -109,7 +118,10 @@ class SuperLU:
         self._factors = _symmetric_lu(matrix, "NATURAL")
         if not np.array_equal(self._factors.perm_r, self._factors.perm_c):
             raise ZeroPivotError("a pivot of the factorisation is zero")
-        return int(np.count_nonzero(self._factors.U.diagonal() < 0.0))
+        upper = self._factors.U
+        if not np.abs(upper.data).max(initial=0.0) < GROWTH * np.abs(values).max(initial=1.0):
+            raise ZeroPivotError("a pivot of the factorisation is too small")
+        return int(np.count_nonzero(upper.diagonal() < 0.0))
 
     def solve(self, right: np.ndarray) -> np.ndarray:
         answer = np.empty_like(right)
@@ -144,7 +156,9 @@ class Pardiso:
 
     def __init__(self, pattern: sparse.csc_array):
         from pypardiso import PyPardisoSolver
+        from pypardiso.pardiso_wrapper import PyPardisoError
 
+        self._error = PyPardisoError
         self._solver = PyPardisoSolver(mtype=-2)
         for number, value in PARDISO_CHOICES.items():
             self._solver.set_iparm(number, value)
@@ -178,7 +192,10 @@ class Pardiso:
 
     def _run(self, phase: int, columns: np.ndarray) -> np.ndarray:
         self._solver.set_phase(phase)
-        return self._solver._call_pardiso(self._upper, columns)
+        try:
+            return self._solver._call_pardiso(self._upper, columns)
+        except self._error as error:
+            raise PARDISO_ERRORS.get(error.value, RuntimeError)(str(error)) from error
 
 
 def _release(solver, upper: sparse.csr_matrix, nothing: np.ndarray) -> None:

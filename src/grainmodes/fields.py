@@ -27,7 +27,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.neighbours import RESOLUTION
 from grainmodes.modes import mode_sum
 from grainmodes.packing import Packing, find_contacts, rattlers
-from grainmodes.parameters import StepStrain
+from grainmodes.parameters import SpectrumChoices, StepStrain
 from grainmodes.protocols.step_strain import relaxed_steps
 from grainmodes.rigidity import rigidity
 from grainmodes.spectrum import Problem, problem, spectrum, windows
@@ -66,7 +66,7 @@ def mode_sum_field(packing: Packing, interaction: Interaction, threshold: int = 
         ValueError: J is not symmetric.
     """
     gone = _rattlers(packing, threshold)
-    modes = spectrum(packing, interaction, threshold)
+    modes = spectrum(packing, interaction, threshold, choices=SpectrumChoices(method="dense"))
     return _on_all(mode_sum(packing, interaction, modes, threshold).displacement, gone)
 
 

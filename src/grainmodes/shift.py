@@ -18,10 +18,9 @@ import scipy.sparse as sparse
 
 from grainmodes.factorisation import ZeroPivotError, factorisation
 
-NUDGE = 2e-14
-"""Relative step off a shift that is an eigenvalue to rounding."""
-
-NUDGES = 4
+NUDGES = (0.0, 2e-14, 1e-12, 5e-11)
+"""Relative steps off a shift that is an eigenvalue of J, or of the part of J eliminated so far, to
+rounding."""
 
 
 class SymmetricShift:
@@ -61,9 +60,9 @@ class SymmetricShift:
         Raises:
             ZeroPivotError: the matrix stays singular however the shift is nudged.
         """
-        for attempt in range(NUDGES):
+        for step in NUDGES:
             try:
-                self._factor(shift * (1.0 + attempt * NUDGE))
+                self._factor(shift * (1.0 + step))
                 return self
             except ZeroPivotError:
                 continue

@@ -336,7 +336,15 @@ def test_a_crossing_is_found_between_the_points_of_the_grid():
     kappas = np.array([1e-2, 1.0, 2.0, 10.0])
     rows = np.log(kappas / 3.0) * np.array([[0.9], [1.0], [1.1]])
     assert crossing(kappas, rows) == pytest.approx((3.0, 0.0), abs=1e-9)
-    assert np.isnan(crossing(kappas[:3], rows[:, :3]).value)
+    assert crossing(kappas[:3], rows[:, :3]) == pytest.approx((2.0, 0.0))
+    assert crossing(kappas[3:], rows[:, 3:]) == pytest.approx((10.0, 0.0))
+
+
+def test_a_sign_that_never_changes_contradicts_the_sign_change():
+    ensemble = claimed.ensemble()
+    ensemble["g_nonaffine"] = -0.01 - np.abs(ensemble["g_nonaffine"])
+    verdict = verdicts(ensemble)["A6"]
+    assert (verdict.verdict, verdict.measured) == (CONTRADICTED, 10.0)
 
 
 def test_reports_hold_every_claim(tmp_path):

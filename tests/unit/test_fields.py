@@ -21,7 +21,7 @@ from grainmodes.parameters import ContactLaw, Rattlers, StepStrain
 from grainmodes.protocols.step_strain import relaxed_steps
 from grainmodes.rows import block_of
 from grainmodes.samples import packed
-from grainmodes.spectrum import spectrum
+from grainmodes.spectrum import full, spectrum
 from specimens import ELASTIC, MINIMAL, SHEARED, elastic, reference, smoothed_coulomb
 
 KTS = (0.0, 1e-8, 1e-4, 1e-2, 1.0, 10.0)
@@ -53,6 +53,13 @@ def test_the_simulation_is_the_theory(name, kt):
     packing, law = reference(name)[1], elastic(name, kt)
     direct, simulated = nonaffine_field(packing, law), simulated_field(packing, law, StepStrain())
     assert_allclose(simulated, direct, rtol=0, atol=1e-6 * np.nanmax(np.abs(direct)))
+
+
+def test_the_sum_over_the_modes_has_its_vectors_at_every_size(monkeypatch):
+    packing, law = reference(MINIMAL[0])[1], elastic("hertz", 1e-2)
+    expected = mode_sum_field(packing, law)
+    monkeypatch.setattr(full, "DENSE_UP_TO", 0)
+    assert_array_equal(mode_sum_field(packing, law), expected)
 
 
 def test_the_error_of_the_simulation_is_of_second_order():

@@ -8,9 +8,9 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 import synthetic
-from grainmodes.dataset import BlockError, write_block
+from grainmodes.dataset import BlockError, read_block, write_block
 from grainmodes.ensemble import merge_blocks, open_ensemble, write_ensemble
-from grainmodes.ensemble.spectra import counted, spectrum
+from grainmodes.ensemble.spectra import counted, points_with, spectrum
 from grainmodes.figures import (
     appearance,
     dos,
@@ -367,6 +367,37 @@ def unaveraged(folder, stage, n, kt):
     path = folder / f"{stage}-{n}-{kt}.nc"
     write_block(path, merge_blocks({"a": packings, "b": spectra}))
     return path
+
+
+def test_points_whose_zero_modes_have_no_vectors_are_points_with_modes(tmp_path):
+    points = [synthetic.point(tmp_path, 8, 0.9, kt, 2) for kt in (1e-8, 1e-4)]
+    for path in points:  # as windows leave them
+        block = read_block(path)
+        for name in ("psi_rotational", "participation_ratio"):
+            block.variables[name][:, :2] = np.nan
+        write_block(path, block)
+    points.append(synthetic.point(tmp_path, 16, 0.9, 1e-8, 2, ("packings", "spectrum_bins")))
+    points.append(unaveraged(tmp_path, "spectrum_bins", 24, 1e-8))
+    write_ensemble(points, tmp_path / "ensemble.nc", {})
+    with open_ensemble(tmp_path / "ensemble.nc") as dataset:
+        present = points_with(dataset, "psi_rotational")
+        assert present.sel(n=8).all()
+        assert not present.sel(n=24).any()
+        assert set(dos.table(dataset, Options())["n"]) == {16}
+
+
+def test_hessians_are_shown_where_there_is_a_jacobian_beside_them(tmp_path):
+    whole = ("packings", "spectrum", "spectrum_hessian")
+    points = [
+        synthetic.point(tmp_path, 8, 0.90, 1e-4, 2, whole),
+        synthetic.point(tmp_path, 8, 0.92, 1e-4, 2, ("packings", "spectrum_hessian")),
+    ]
+    write_ensemble(points, tmp_path / "ensemble.nc", {})
+    with open_ensemble(tmp_path / "ensemble.nc") as dataset:
+        table = dos_hessian.table(dataset, Options())
+    assert set(table["phi"]) == {0.90}
+    assert set(table["kind"]) == {"jacobian", "hessian", "printed"}
+    assert (table["modes_outside"] >= 0).all()
 
 
 def test_counts_alone_stand_behind_modes_and_averages(tmp_path):

@@ -105,6 +105,19 @@ def test_two_factorisations_live_side_by_side(backend):
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
+def test_counts_are_right_where_a_leading_part_is_singular(backend):
+    of = problem(quenched(128, 0.86), elastic("hertz", 1.0))
+    values, shift = dense.eigenvalues(of), of.shift("superlu")
+    order = shift.to(0.5)._factors._order
+    leading = of.matrix[order][:, order].toarray()
+    shift = of.shift(backend)
+    for size in (1, 2, 3, 5, 9, 17):
+        for sigma in np.linalg.eigvalsh(leading[:size, :size]):
+            if np.abs(values / sigma - 1.0).min() > 1e-6:
+                assert shift.to(sigma).count == np.searchsorted(values, sigma)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
 def test_empty_rows_are_zero_modes(backend):
     matrix = sparse.csc_array(np.diag([0.0, 1.0, 0.0, 4.0]))
     shift = SymmetricShift(matrix, backend)
@@ -130,6 +143,21 @@ def test_a_singular_matrix_at_zero_is_refused():
 def test_an_unknown_factorisation_is_refused():
     with pytest.raises(ValueError, match="allowed are auto, superlu, pardiso"):
         SymmetricShift(sparse.csc_array(np.eye(2)), "cholesky")
+
+
+@pytest.mark.skipif("pardiso" not in BACKENDS, reason="needs pypardiso")
+@pytest.mark.parametrize(("code", "kind"), [(-2, MemoryError), (-4, ZeroPivotError)])
+def test_what_pardiso_runs_into_fails_a_sample_and_not_its_block(code, kind, monkeypatch):
+    from pypardiso.pardiso_wrapper import PyPardisoError
+
+    def fail(*arguments):
+        raise PyPardisoError(code)
+
+    factors = factorisation.factorisation(sparse.csc_array(np.eye(3)), "pardiso")
+    with monkeypatch.context() as patch:
+        patch.setattr(factors._solver, "_call_pardiso", fail)
+        with pytest.raises(kind, match=f"error code {code}"):
+            factors.refill(np.ones(3))
 
 
 def test_pardiso_must_be_installed_to_be_asked_for(monkeypatch):

@@ -62,7 +62,8 @@ def crossing(kappas: np.ndarray, rows: np.ndarray) -> Estimate:
         kappas: (K,) ascending, positive.
 
     Returns:
-        NaN where it never does.
+        the last of `kappas` where it never does and ends negative, else the first: the zero lies
+        beyond.
     """
     logarithm = np.log(kappas)
 
@@ -70,7 +71,7 @@ def crossing(kappas: np.ndarray, rows: np.ndarray) -> Estimate:
         values = samples.mean(axis=0)
         (rises,) = np.nonzero((values[:-1] < 0) & (values[1:] >= 0))
         if not rises.size:
-            return np.nan
+            return kappas[-1] if values[-1] < 0 else kappas[0]
         below, above = rises[0], rises[0] + 1
         share = values[below] / (values[below] - values[above])
         return float(np.exp(logarithm[below] + share * (logarithm[above] - logarithm[below])))

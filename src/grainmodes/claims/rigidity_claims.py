@@ -231,7 +231,7 @@ def _ends(samples: Samples, phis: list[float]) -> list[float]:
 
 def _ends_around_two(samples: Samples, phi: float) -> bool:
     kappas = samples.kappas("g_nonaffine", phi, TINY)
-    return bool(kappas) and kappas[0] < 2.0 < kappas[-1]
+    return bool(kappas) and kappas[0] < CROSSING[0] and kappas[-1] > CROSSING[1]
 
 
 def _zero(samples: Samples, phi: float) -> Estimate:

@@ -97,7 +97,7 @@ def counted(ensemble: xr.Dataset, n: int, phi: float, kt: float, variant: str = 
 
 
 def _measured(ensemble: xr.Dataset, name: str) -> xr.DataArray:
-    values = variable(ensemble, name).isel(mode=0, missing_dims="ignore")
+    values = variable(ensemble, name)
     return values.notnull().any(values.dims[3:])
 
 

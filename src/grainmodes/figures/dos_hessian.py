@@ -14,7 +14,7 @@ from grainmodes.ensemble.spectra import counted, points_with, spectrum
 from grainmodes.figures import appearance, spectral_rows
 from grainmodes.figures.panels import draw_densities
 from grainmodes.figures.selection import Options, panels, positive
-from grainmodes.figures.spectral_points import place
+from grainmodes.figures.spectral_points import ANY, place
 
 COLUMNS = (
     spectral_rows.BINS
@@ -41,7 +41,8 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         BlockError: the study computed no Hessian.
         ValueError: the ensemble has no k_T > 0.
     """
-    n, phi, found = place(options, points_with(ensemble, "bin_count_hessian"))
+    present = points_with(ensemble, "bin_count_hessian") & points_with(ensemble, *ANY)
+    n, phi, found = place(options, present)
     kappas = panels(options.kt, positive(found, "dos_hessian"))
     return spectral_rows.stacked([_panel_rows(ensemble, (n, phi, kappa)) for kappa in kappas])[
         list(COLUMNS)
