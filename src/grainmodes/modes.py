@@ -60,8 +60,14 @@ class ModeRigidity:
         return self._unloaded.moduli(np.zeros(len(self.forces))).g_affine
 
     def contributions(self, spectrum: Spectrum) -> np.ndarray:
-        """g_NA of every mode (M,), k_N d^(1/2); 0 for the translations."""
+        """g_NA of every mode (M,), k_N d^(1/2); 0 for the translations.
+
+        Raises:
+            ArithmeticError: more eigenvalues are 0 than the two of the translations.
+        """
         elastic = elastic_modes(spectrum.eigenvalue)
+        if np.any(spectrum.eigenvalue[elastic] == 0.0):
+            raise ArithmeticError("some modes lie below the lowest safe edge: no sum over modes")
         product = spectrum.projection[elastic].prod(axis=1) / spectrum.eigenvalue[elastic]
         shares = np.zeros(len(spectrum.eigenvalue))
         shares[elastic] = -product / self._area

@@ -102,8 +102,8 @@ def probes(
             attempt(np.nan, forward_rigidity, packing, rule, step, threshold)
             for step in _steps(protocol.step_strain)
         ],
-        "hessian_difference": hessian_difference(packing, rule, "tangent"),
-        "hessian_printed_difference": hessian_difference(packing, rule, "printed"),
+        "hessian_difference": attempt(np.nan, hessian_difference, packing, rule, "tangent"),
+        "hessian_printed_difference": attempt(np.nan, hessian_difference, packing, rule, "printed"),
     }
     if packing.n <= DENSE:
         row["g_translational"] = attempt(np.nan, translational_rigidity, packing, rule, threshold)
@@ -121,7 +121,7 @@ def _frictional(
     if not law.frictional:
         return {}
     rule = interaction(law)
-    orders = step_orders(packing, rule, Dashpot(step.damping))
+    orders = attempt((np.nan, np.nan), step_orders, packing, rule, Dashpot(step.damping))
     row = dict(zip(("verlet_order_position", "verlet_order_velocity"), orders, strict=True))
     if packing.n > COMPRESSED:
         return row

@@ -52,6 +52,12 @@ def converged(ensemble) -> xarray.DataArray:
 
 
 @pytest.fixture(scope="session")
+def asked(ensemble) -> xarray.DataArray:
+    """Which samples (n, phi, kt, seed) the grids of the study ask for."""
+    return ensemble["converged"].notnull()
+
+
+@pytest.fixture(scope="session")
 def protocol(ensemble) -> dict:
     """The numerical choices of the study."""
     return json.loads(ensemble.attrs["config"])["protocol"]

@@ -18,17 +18,17 @@ import numpy as np
 
 from grainmodes import statistics
 from grainmodes.claims.bands import (
+    SEPARABLE,
     Modes,
     frictionless,
-    kind,
     mean_in,
     modes,
     per_sample,
-    with_modes,
+    separable,
 )
 from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, every, text
 from grainmodes.claims.estimates import Estimate, jackknife, mean, relative_difference
-from grainmodes.claims.samples import TINY, Samples, at
+from grainmodes.claims.samples import TINY, Samples, at, richest
 
 REGION = 2.0
 """omega / omega_R between Regions I and II."""
@@ -53,10 +53,10 @@ LIMIT = 1e-8
 
 
 def _spectra(ensemble) -> tuple[Samples, float, dict[float, Modes]]:
-    """The largest N with spectra, its largest φ, and the modes of every k_T > 0 there."""
-    samples = with_modes(ensemble)[-1]
-    phi = samples.phis(kind(ensemble)[1])[-1]
-    kappas = samples.kappas(kind(ensemble)[1], phi, TINY)
+    """The N with most spectra, its largest φ, and the modes of every k_T > 0 there."""
+    samples = richest(separable(ensemble), SEPARABLE)
+    phi = samples.phis(SEPARABLE)[-1]
+    kappas = samples.kappas(SEPARABLE, phi, TINY)
     return samples, phi, {kappa: modes(samples, phi, kappa) for kappa in kappas}
 
 
@@ -235,12 +235,11 @@ def frictionless_band(ensemble) -> Outcome:
 
     Criterion: the mean shift is below 1 %.
     """
-    samples = with_modes(ensemble)[-1]
-    spectrum, psi = kind(ensemble)
-    phis = [p for p in samples.phis(spectrum, 0.0) if samples.kappas(psi, p, TINY, LIMIT)]
+    samples = richest(separable(ensemble), SEPARABLE)
+    phis = [p for p in samples.phis(SEPARABLE, 0.0) if samples.kappas(SEPARABLE, p, TINY, LIMIT)]
     if not phis:
         raise NotAsked("spectra at k_T = 0 and at a k_T/k_N ≤ 1e-8")
-    phi, kappa = phis[-1], samples.kappas(psi, phis[-1], TINY, LIMIT)[-1]
+    phi, kappa = phis[-1], samples.kappas(SEPARABLE, phis[-1], TINY, LIMIT)[-1]
     with_friction, without = modes(samples, phi, kappa).translational, frictionless(samples, phi)
     counts = [np.isfinite(band).sum(axis=1).mean() for band in (with_friction, without)]
     shift = Part(at(phi, kappa), mean(per_sample(_shift, with_friction, without)), high=0.01)

@@ -2,19 +2,40 @@
 
 Where an ensemble holds counts in bins instead of eigenvalues, a bin of c modes with mean psi^R is
 read as c psi^R rotational modes and the rest translational, spread over it evenly in log(omega):
-right where modes are of one kind, and resolved to a bin.
+right where modes are of one kind, and resolved to a bin. Where bins have no psi^R and k_T/k_N is
+at most 1e-6, the gap between the bands tells them apart.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from grainmodes import statistics
 from grainmodes.claims.claim import NotAsked
 from grainmodes.claims.estimates import Estimate, mean
-from grainmodes.claims.samples import Samples, sizes
+from grainmodes.claims.samples import Samples
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+SEPARABLE = "separable"
+"""Name of the variable that marks samples with two bands."""
+
+SEPARATE = 1e-6
+"""k_T/k_N up to which the bands of a spectrum that was only counted are told apart by the gap."""
+
+BETWEEN = 3.0
+"""omega / omega_R in the gap: the rotational band of Hertzian grains ends below 1.5."""
+
+UP_TO = {
+    "psi_rotational": np.inf,
+    "bin_psi_rotational": np.inf,
+    "eigenvalue": 0.0,
+    "bin_count": SEPARATE,
+}
+"""Variable → k_T/k_N up to which it separates the bands."""
 
 SHARES = np.linspace(0.1, 0.9, 9)
 """Shares of a band at which two bands are compared: its ends hang on single modes."""
@@ -37,40 +58,56 @@ class Modes(NamedTuple):
         return np.where(self.psi_rotational <= 0.5, self.frequency, np.nan)
 
 
-def kind(ensemble) -> tuple[str, str]:
-    """The names of the spectrum and of psi^R that an ensemble holds, by mode or else by bin.
+def separable(ensemble: xr.Dataset) -> xr.Dataset:
+    """The ensemble with a variable `SEPARABLE`, 1 for samples whose two bands can be told apart.
 
     Raises:
-        NotAsked: it holds neither.
+        NotAsked: no sample is.
     """
-    for names in (("eigenvalue", "psi_rotational"), ("bin_count", "bin_psi_rotational")):
-        if all(name in ensemble for name in names):
-            return names
-    raise NotAsked("psi_rotational (observables.spectrum: modes, or bands)")
+    found = [
+        _known(ensemble[name]) & (ensemble["kt"] <= most)
+        for name, most in UP_TO.items()
+        if name in ensemble
+    ]
+    if not any((known & (ensemble["kt"] > 0.0)).any() for known in found):
+        raise NotAsked("psi_rotational (observables.spectrum: modes, or bands)")
+    known = sum(found) > 0
+    return ensemble.assign({SEPARABLE: known.where(known)})
 
 
-def with_modes(ensemble) -> list[Samples]:
-    """The samples of every N that has spectra with psi^R, N ascending."""
-    return sizes(ensemble, *kind(ensemble))
+def _known(values: xr.DataArray) -> xr.DataArray:
+    """Whether a sample has values; of modes the first vibration tells, of bins any."""
+    if "mode" in values.dims:
+        return values.isel(mode=statistics.TRANSLATIONS).notnull()
+    return values.notnull().any("bin")
 
 
 def modes(samples: Samples, phi: float, kappa: float) -> Modes:
     """The vibrations of one point; a sample that is not jammed is a row of NaN."""
-    spectrum, psi = kind(samples.ensemble)
-    psi_rotational = samples.of(psi, phi, kappa)
-    if spectrum == "bin_count":
-        edges = samples.of("bin_edge", phi, kappa)
-        return _from_bins(edges, samples.of("bin_count", phi, kappa), psi_rotational)
-    eigenvalue = samples.of("eigenvalue", phi, kappa)
-    return Modes(statistics.frequencies(eigenvalue).frequency, psi_rotational)
+    for spectrum, psi in (("eigenvalue", "psi_rotational"), ("bin_count", "bin_psi_rotational")):
+        values = spectrum_at(samples, spectrum, phi, kappa)
+        fractions = spectrum_at(samples, psi, phi, kappa)
+        if values is not None and (
+            fractions is not None or kappa == 0.0 or spectrum != "eigenvalue"
+        ):
+            break
+    if spectrum == "eigenvalue":
+        fractions = np.zeros_like(values) if fractions is None else fractions
+        return Modes(statistics.frequencies(values).frequency, fractions)
+    edges = samples.of("bin_edge", phi, kappa)
+    split = (edges[:, :-1] < BETWEEN * np.sqrt(kappa)).astype(float)
+    return _from_bins(edges, values, split if fractions is None else fractions)
+
+
+def spectrum_at(samples: Samples, name: str, phi: float, kappa: float) -> np.ndarray | None:
+    """A variable at one point, None where it has no value there."""
+    values = samples.of(name, phi, kappa) if name in samples.ensemble else np.array(np.nan)
+    return values if np.isfinite(values).any() else None
 
 
 def frictionless(samples: Samples, phi: float) -> np.ndarray:
     """Frequencies (S, M) at k_T = 0, where every mode is translational."""
-    if kind(samples.ensemble)[0] == "eigenvalue":
-        return statistics.frequencies(samples.of("eigenvalue", phi, 0.0)).frequency
-    edges, count = (samples.of(name, phi, 0.0) for name in ("bin_edge", "bin_count"))
-    return _from_bins(edges, count, np.zeros_like(count)).frequency
+    return modes(samples, phi, 0.0).frequency
 
 
 def _from_bins(edges: np.ndarray, count: np.ndarray, psi: np.ndarray) -> Modes:

@@ -13,12 +13,16 @@ import numpy as np
 
 from grainmodes import statistics
 from grainmodes.binning import occupation
+from grainmodes.claims.bands import spectrum_at
 from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
 from grainmodes.claims.estimates import Estimate, jackknife, mean
-from grainmodes.claims.samples import TINY, Samples, at, largest
+from grainmodes.claims.samples import Samples, at, richest
 
 SAME_DENSITY = 0.05
 """Area between two densities of states, over the area below one, that a figure does not show."""
+
+STRONG = 0.1
+"""k_T/k_N from which states compressed with friction are judged."""
 
 ORDERS = {"position": 2.0, "velocity": 1.0}
 """Orders of velocity Verlet that A finds (App. B)."""
@@ -37,7 +41,7 @@ def hessian_density(ensemble) -> Outcome:
         return _densities(ensemble)
     if "hessian_difference" not in ensemble:
         raise NotAsked("bin_count_hessian and hessian_difference")
-    samples = largest(ensemble, "hessian_difference")
+    samples = richest(ensemble, "hessian_difference")
     parts = [
         Part(at(*p), mean(samples.of("hessian_difference", *p)), high=SAME_DENSITY)
         for p in samples.points("hessian_difference")
@@ -46,7 +50,7 @@ def hessian_density(ensemble) -> Outcome:
 
 
 def _densities(ensemble) -> Outcome:
-    samples = largest(ensemble, "bin_count_hessian", "bin_edge")
+    samples = richest(ensemble, "bin_count_hessian", "bin_edge")
     points = samples.points("bin_count_hessian")
     parts = [
         Part(at(*p), _area(samples, "bin_count_hessian", p), high=SAME_DENSITY) for p in points
@@ -59,20 +63,25 @@ def _densities(ensemble) -> Outcome:
 
 
 def _area(samples: Samples, name: str, point: tuple) -> Estimate:
+    edges = samples.of("bin_edge", *point)
+    bins = int(np.isfinite(edges).any(axis=0).sum()) - 1
+
     def area(counts: np.ndarray, hessian: np.ndarray) -> float:
         return np.abs(counts.mean(axis=0) - hessian.mean(axis=0)).sum() / counts.mean(axis=0).sum()
 
-    return jackknife(area, _counts(samples, point), samples.of(name, *point))
+    counts = _counts(samples, point, edges[:, : bins + 1])
+    return jackknife(area, counts[:, :bins], samples.of(name, *point)[:, :bins])
 
 
-def _counts(samples: Samples, point: tuple) -> np.ndarray:
+def _counts(samples: Samples, point: tuple, edges: np.ndarray) -> np.ndarray:
     """Modes of the Jacobian in the bins of the Hessian, (S, B)."""
-    if "bin_count" in samples.ensemble:
-        return samples.of("bin_count", *point)
-    if "eigenvalue" not in samples.ensemble:
-        raise NotAsked("bin_count or eigenvalue")
-    frequency = statistics.frequencies(samples.of("eigenvalue", *point)).frequency
-    edges = samples.of("bin_edge", *point)
+    eigenvalue = spectrum_at(samples, "eigenvalue", *point)
+    if eigenvalue is None:
+        counted = spectrum_at(samples, "bin_count", *point)
+        if counted is None:
+            raise NotAsked("bin_count or eigenvalue")
+        return counted
+    frequency = statistics.frequencies(eigenvalue).frequency
     rows = [occupation(row[None], of)[0] for row, of in zip(frequency, edges, strict=True)]
     return np.where(np.isfinite(edges[:, 1:]), rows, np.nan)
 
@@ -86,7 +95,7 @@ def verlet_orders(ensemble) -> Outcome:
     Criterion: 1.8 ... 2.2 in q, 0.8 ... 1.2 in q̇.
     """
     names = {kind: f"verlet_order_{kind}" for kind in ORDERS}
-    samples = largest(ensemble, *names.values())
+    samples = richest(ensemble, *names.values())
     parts = [
         Part(
             f"{kind} at {at(*p)}",
@@ -104,15 +113,15 @@ def verlet_orders(ensemble) -> Outcome:
 def complex_pairs_with_friction(ensemble) -> Outcome:
     """States compressed with friction have complex pairs of eigenvalues of M⁻¹J (footnote 1).
 
-    Share of the jammed states compressed with friction that have at least one pair, all points of
-    a seed together.
+    Share of the jammed states compressed with friction that have at least one pair, the points of
+    a seed with k_T/k_N ≥ 0.1 together: A does not say at which k_T, and weak friction has none.
 
     Criterion: above one half.
     """
-    samples = largest(ensemble, "complex_pairs_frictional", "jammed_frictional")
-    points = samples.points("complex_pairs_frictional", TINY)
+    samples = richest(ensemble, "complex_pairs_frictional", "jammed_frictional")
+    points = samples.points("complex_pairs_frictional", STRONG)
     if not points:
-        raise NotAsked("states compressed with a k_T > 0")
+        raise NotAsked("states compressed with a k_T/k_N ≥ 0.1")
     pairs, jammed = (
         np.array([samples.of(name, *point) for point in points])
         for name in ("complex_pairs_frictional", "jammed_frictional")

@@ -17,7 +17,7 @@ import numpy as np
 
 from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, every, text
 from grainmodes.claims.estimates import Estimate, crossing, mean, relative_difference
-from grainmodes.claims.samples import TINY, Samples, at, largest
+from grainmodes.claims.samples import TINY, Samples, at, richest
 
 SMALL = 1e-4
 """k_T/k_N up to which A finds no influence of k_T (Fig. 5)."""
@@ -46,7 +46,7 @@ def theory_is_simulation(ensemble) -> Outcome:
 
     Criterion: |G_simulated - G| < 1 % of G.
     """
-    samples = largest(ensemble, "g", "g_simulated")
+    samples = richest(ensemble, "g", "g_simulated")
     parts = [
         Part(at(*point), _relative(samples, "g_simulated", "g", *point), -SAME, SAME)
         for point in samples.points("g_simulated")
@@ -77,7 +77,7 @@ def not_proportional_to_distance(ensemble) -> Outcome:
 
     Criterion: |β - 1| > 0.1 at every k_T/k_N ≥ 1.
     """
-    samples = largest(ensemble, "g", "phi_jamming")
+    samples = richest(ensemble, "g", "phi_jamming")
     enough = [k for k in samples.kappas("g") if len(samples.phis("g", k)) >= FEWEST_PHI]
     if not enough:
         raise NotAsked(f"{FEWEST_PHI} area fractions with jammed samples")
@@ -114,7 +114,7 @@ def flat_at_small_stiffness(ensemble) -> Outcome:
 
     Criterion: |difference| < 1 %.
     """
-    samples = largest(ensemble, "g")
+    samples = richest(ensemble, "g")
     parts, errors = [], {}
     for phi in samples.phis("g"):
         lowest, *others = samples.kappas("g", phi, TINY, SMALL) or [None]
@@ -136,7 +136,7 @@ def frictionless_limit(ensemble) -> Outcome:
 
     Criterion: |difference| < 0.1 % at a k_T/k_N ≤ 1e-6.
     """
-    samples = largest(ensemble, "g")
+    samples = richest(ensemble, "g")
     with_limit = [phi for phi in samples.phis("g", 0.0) if samples.kappas("g", phi, TINY, 1e-6)]
     if not with_limit:
         raise NotAsked("k_T = 0 and a k_T/k_N ≤ 1e-6")
@@ -164,7 +164,7 @@ def no_factorisation(ensemble) -> Outcome:
 
     Criterion: |difference| > 0.05 at every k_T/k_N ≥ 1.
     """
-    samples = largest(ensemble, "g")
+    samples = richest(ensemble, "g")
     phis = samples.phis("g", 0.0)
     if len(phis) < 2:
         raise NotAsked("k_T = 0 at two area fractions with jammed samples")
@@ -209,7 +209,7 @@ def nonaffine_sign_change(ensemble) -> Outcome:
     Criterion: the crossing lies within 1.6 ... 2.5 at every φ, and |G_NA| is larger at the
     highest φ.
     """
-    samples = largest(ensemble, "g_nonaffine", "g_nonaffine_loaded")
+    samples = richest(ensemble, "g_nonaffine", "g_nonaffine_loaded")
     phis = samples.phis("g_nonaffine")
     zeros = {phi: _zero(samples, phi) for phi in phis if _ends_around_two(samples, phi)}
     parts = {
@@ -272,7 +272,7 @@ def independent_of_strain(ensemble) -> Outcome:
 
     Criterion: |difference| < 1 %.
     """
-    samples = largest(ensemble, "g_forward_by_strain", "probe_strain")
+    samples = richest(ensemble, "g_forward_by_strain", "probe_strain")
     parts = []
     for point in samples.points("g_forward_by_strain"):
         moduli = samples.of("g_forward_by_strain", *point).T
@@ -292,7 +292,7 @@ def translational_modes_suffice(ensemble) -> Outcome:
 
     Criterion: |difference| < 1 %.
     """
-    samples = largest(ensemble, "g_translational", "g")
+    samples = richest(ensemble, "g_translational", "g")
     parts = [
         Part(at(*point), _relative(samples, "g_translational", "g", *point), -SAME, SAME)
         for point in samples.points("g_translational", TINY, SMALL)

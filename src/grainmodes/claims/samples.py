@@ -74,20 +74,25 @@ class Samples:
         return self.ensemble[axis].to_numpy().tolist().index(value)
 
 
-def largest(ensemble: xr.Dataset, *names: str) -> Samples:
-    """The samples of the largest N at which all the variables have some.
+def richest(ensemble: xr.Dataset, *names: str) -> Samples:
+    """The samples of the N with most points that have all the variables, the largest of several.
 
     Raises:
         NotAsked: the ensemble lacks one of the variables, or samples of them.
     """
-    return sizes(ensemble, *names)[-1]
+
+    def shared(samples: Samples) -> tuple[int, int]:
+        points = set.intersection(*(set(samples.points(name)) for name in names))
+        return len(points), samples.n
+
+    return max(sizes(ensemble, *names), key=shared)
 
 
 def sizes(ensemble: xr.Dataset, *names: str) -> list[Samples]:
     """The samples of every N at which all the variables have some, N ascending.
 
     Raises:
-        NotAsked: as `largest`.
+        NotAsked: as `richest`.
     """
     absent = [name for name in names if name not in ensemble]
     if absent:

@@ -12,10 +12,18 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes import statistics
-from grainmodes.claims.bands import SHARES, Modes, kind, log_shares, median_log, modes, with_modes
+from grainmodes.claims.bands import (
+    SEPARABLE,
+    SHARES,
+    Modes,
+    log_shares,
+    median_log,
+    modes,
+    separable,
+)
 from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
 from grainmodes.claims.estimates import Estimate, mean
-from grainmodes.claims.samples import TINY, Samples, at, largest
+from grainmodes.claims.samples import TINY, Samples, at, richest, sizes
 
 LIMIT = 1e-8
 """k_T/k_N of A's Figs. 15 and 16, and of the first rattlers of Fig. 14."""
@@ -34,7 +42,7 @@ def localised_rattlers(ensemble) -> Outcome:
     Criterion: the share is above one half.
     """
     names = ("eigenvalue_rattlers", "participation_ratio_rattlers", "mode_count_rattlers")
-    samples = largest(ensemble, *names, "mode_count")
+    samples = richest(ensemble, *names, "mode_count")
     parts, zero, added = [], 0.0, 0.0
     for kappa in samples.kappas(names[0], low=LIMIT, high=1e-4):
         near, vanishing, of_rattlers = np.nansum(
@@ -70,9 +78,8 @@ def independent_of_size(ensemble) -> Outcome:
 
     Criterion: each difference is below 5 %.
     """
-    of_n = with_modes(ensemble)
-    psi = kind(ensemble)[1]
-    common = set.intersection(*(set(s.points(psi, TINY)) for s in (of_n[0], of_n[-1])))
+    of_n = sizes(separable(ensemble), SEPARABLE)
+    common = set.intersection(*(set(s.points(SEPARABLE, TINY)) for s in (of_n[0], of_n[-1])))
     if len(of_n) < 2 or not common:
         raise NotAsked("spectra of two N at one φ and k_T")
     point = max(common, key=lambda point: (point[0], -abs(np.log(point[1] / LIMIT))))
@@ -102,10 +109,9 @@ def towards_jamming(ensemble) -> Outcome:
 
     Criterion: both are above 0.
     """
-    samples = with_modes(ensemble)[-1]
-    psi = kind(ensemble)[1]
-    kappa = min(samples.kappas(psi, low=TINY), default=0.0)
-    phis = samples.phis(psi, kappa)
+    samples = richest(separable(ensemble), SEPARABLE)
+    kappa = min(_at_most_phis(samples), default=0.0)
+    phis = samples.phis(SEPARABLE, kappa)
     if len(phis) < 2 or kappa == 0.0:
         raise NotAsked("spectra at two area fractions and one k_T > 0, with jammed samples")
     low, high = (modes(samples, phi, kappa) for phi in (phis[0], phis[-1]))
@@ -116,6 +122,13 @@ def towards_jamming(ensemble) -> Outcome:
         [Part(f"band, {where}", down, 0.0), Part(f"plateau, {where}", wider, 0.0)],
         f"The rotational band moves by {text(down)}, the plateau widens by {text(wider)} decades.",
     )
+
+
+def _at_most_phis(samples: Samples) -> list[float]:
+    """The values of k_T > 0 with spectra at most area fractions."""
+    kappas = samples.kappas(SEPARABLE, low=TINY)
+    numbers = [len(samples.phis(SEPARABLE, kappa)) for kappa in kappas]
+    return [kappa for kappa, n in zip(kappas, numbers, strict=True) if n == max(numbers)]
 
 
 def _width(band: np.ndarray) -> np.ndarray:
