@@ -29,7 +29,8 @@ class Place(NamedTuple):
 
 
 def place(options: Options, present: xr.DataArray) -> Place:
-    """The largest φ with friction, there the largest N, or what is asked for.
+    """The largest φ with friction, there the N with most k_T (the largest of several), or what is
+    asked for.
 
     Raises:
         ValueError: there is no spectrum where it is asked for.
@@ -40,7 +41,8 @@ def place(options: Options, present: xr.DataArray) -> Place:
         n = largest_or(options.n, _along("n", shown), "n")
         shown, present = (of.where(of["n"] == n, False) for of in (shown, present))
     phi = largest_or(options.phi, _along("phi", shown), "phi")
-    n = _along("n", shown.sel(phi=phi)).max().item()
+    number = shown.sel(phi=phi).sum("kt")
+    n = number["n"].to_numpy()[(number == number.max()).to_numpy()].max().item()
     return Place(n, phi, _along("kt", present.sel(n=n, phi=phi)))
 
 
