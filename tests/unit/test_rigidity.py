@@ -7,9 +7,9 @@ import naive
 from grainmodes.jacobian import jacobian
 from grainmodes.kernels.laws import interaction
 from grainmodes.linear import FloppyError, PinnedFactor
-from grainmodes.modes import elastic_modes, mode_sum
+from grainmodes.modes import ModeRigidity, elastic_modes, mode_sum
 from grainmodes.packing import Packing, find_contacts
-from grainmodes.parameters import ContactLaw
+from grainmodes.parameters import ContactLaw, SpectrumChoices
 from grainmodes.rigidity import affine_displacement, net_rate, relative, rigidity
 from grainmodes.spectrum import spectrum
 from specimens import (
@@ -190,3 +190,28 @@ def test_relative_and_net_are_each_others_transpose():
     assert np.sum(relative(contacts, u) * rate) == pytest.approx(
         np.sum(u * net_rate(contacts, rate, 16)), rel=1e-12
     )
+
+
+def test_a_sum_over_modes_that_are_not_known_is_refused():
+    """Windows give modes below the lowest safe edge an eigenvalue 0, as at k_T/k_N = 1e-15."""
+    packing, law = reference(MINIMAL[0])[1], elastic("hertz", 1e-15)
+    by_mode = ModeRigidity(packing, law)
+    choices = SpectrumChoices("windows")
+    found = spectrum(packing, law, forces=by_mode.forces, choices=choices)
+    with pytest.raises(ArithmeticError, match="below the lowest safe edge"):
+        by_mode.contributions(found)
+
+
+@pytest.mark.parametrize("kt", [1e-8, 1.0])
+def test_windows_and_dense_modes_give_the_same_sum(kt):
+    packing, law = reference(ELASTIC[3])[1], elastic("hertz", kt)
+    by_mode = ModeRigidity(packing, law)
+    sums = [
+        by_mode.contributions(
+            spectrum(packing, law, forces=by_mode.forces, choices=SpectrumChoices(method))
+        ).sum()
+        for method in ("dense", "windows")
+    ]
+    assert sums[1] == pytest.approx(sums[0], rel=1e-9)
+    exact = rigidity(packing, law).unloaded
+    assert by_mode.g_affine + sums[1] == pytest.approx(exact.g, rel=1e-9)
