@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import asdict
 
-from grainmodes.dataset import Block, BlockError
+from grainmodes.dataset import Block
 from grainmodes.forces import largest, net_force
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import find_contacts
@@ -18,7 +18,7 @@ from grainmodes.parameters import Compression, ContactLaw, Rattlers, StepStrain
 from grainmodes.protocols.compression import advanced, balanced, placed
 from grainmodes.protocols.step_strain import step_strain
 from grainmodes.rigidity import Moduli, rigidity
-from grainmodes.rows import attribute, block_of
+from grainmodes.rows import attribute, block_of, described, response_block
 from grainmodes.samples import (
     check_same,
     check_start,
@@ -52,7 +52,7 @@ def compress_block(
         )
         return checkpoint(advanced(before, phi, law, compression))
 
-    attributes = _attributes("trajectories", config, n=n, phi=phi)
+    attributes = described("trajectories", config, n=n, phi=phi)
     failures = {} if start is None else attribute(start, "failures")
     return block_of(seeds, sample, failures, attributes)
 
@@ -76,7 +76,7 @@ def packing_block(start: Block, phi: float, compression: Compression, normal: st
             "iterations": relaxed.iterations,
         }
 
-    attributes = _attributes("packings", config, n=int(start.attributes["n"]), phi=phi)
+    attributes = described("packings", config, n=int(start.attributes["n"]), phi=phi)
     failures = attribute(start, "failures")
     return block_of(start.variables["seed"], sample, failures, attributes)
 
@@ -91,7 +91,7 @@ def rigidity_block(packings: Block, law: ContactLaw, rattler: Rattlers) -> Block
         row = {"jammed": jammed, "converged": True, "max_force": force[0], "max_torque": force[1]}
         if not jammed:
             return row | dict.fromkeys([*_moduli_names(""), *_moduli_names("_loaded")], 0.0)
-        moduli = rigidity(packing, rule, rattler_threshold(rattler, law))
+        moduli = rigidity(packing, rule, rattler.largest(law))
         return row | _moduli("", moduli.unloaded) | _moduli("_loaded", moduli.loaded)
 
     config = {"law": asdict(law), "rattlers": asdict(rattler)}
@@ -128,28 +128,8 @@ def step_strain_block(packings: Block, law: ContactLaw, step: StepStrain) -> Blo
     return response_block(packings, "step_strain", config, law, sample)
 
 
-def response_block(packings: Block, stage: str, config: dict, law: ContactLaw, sample) -> Block:
-    """The block of an observable of `packings`, which carries their parameters along."""
-    absent = [name for name in ("n", "phi") if name not in packings.attributes]
-    if absent:
-        raise BlockError(f"the packings have no attribute {' and no '.join(absent)}")
-    point = {name: packings.attributes[name] for name in ("n", "phi")} | {"kt": law.kt}
-    attributes = _attributes(stage, attribute(packings, "config") | config, **point)
-    failures = attribute(packings, "failures")
-    return block_of(packings.variables["seed"], sample, failures, attributes)
-
-
-def _attributes(stage: str, config: dict, **point: float) -> dict[str, object]:
-    return {"title": f"grainmodes: {stage}", "stage": stage, "config": config} | point
-
-
 def _normal(name: str):
     return interaction(ContactLaw(normal=name)).normal
-
-
-def rattler_threshold(rattler: Rattlers, law: ContactLaw) -> int:
-    """Z_Th; without friction a grain with two contacts is a rattler whatever is asked."""
-    return rattler.threshold if law.frictional else max(rattler.threshold, 2)
 
 
 def _moduli_names(suffix: str) -> tuple[str, str, str]:

@@ -10,7 +10,6 @@ from dataclasses import asdict
 
 import numpy as np
 
-from grainmodes.blocks import rattler_threshold, response_block
 from grainmodes.dataset import Block
 from grainmodes.fields import (
     affine_field,
@@ -22,7 +21,7 @@ from grainmodes.fields import (
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import Packing
 from grainmodes.parameters import ContactLaw, Rattlers, StepStrain
-from grainmodes.rows import attribute
+from grainmodes.rows import attribute, response_block
 from grainmodes.samples import jammed_packing, seed_of
 
 MOST_FOR_ALL_MODES = 2048
@@ -37,7 +36,7 @@ def fields_block(
     frequencies: tuple[float, ...],
 ) -> Block:
     """The fields of the first sample of a block, and its modes nearest to `frequencies` (1/t_0)."""
-    rule, threshold = interaction(law), rattler_threshold(rattlers, law)
+    rule, threshold = interaction(law), rattlers.largest(law)
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, rule)

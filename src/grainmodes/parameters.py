@@ -78,6 +78,10 @@ class Rattlers:
 
     threshold: int = 2
 
+    def largest(self, law: ContactLaw) -> int:
+        """Most contacts of a rattler; without friction two carry no load whatever is asked."""
+        return self.threshold if law.frictional else max(self.threshold, 2)
+
 
 @dataclass(frozen=True)
 class SpectrumChoices:

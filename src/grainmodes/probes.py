@@ -21,7 +21,6 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
-from grainmodes.blocks import rattler_threshold, response_block
 from grainmodes.dataset import Block
 from grainmodes.hessian import effective_hessian
 from grainmodes.jacobian import jacobian
@@ -33,7 +32,7 @@ from grainmodes.parameters import ContactLaw, Protocol, StepStrain
 from grainmodes.protocols.frictional_compression import frictional_compression
 from grainmodes.protocols.step_strain import forward_rigidity
 from grainmodes.relaxation.accuracy import step_orders
-from grainmodes.rows import SAMPLE_ERRORS
+from grainmodes.rows import SAMPLE_ERRORS, response_block
 from grainmodes.samples import jammed_packing, seed_of
 from grainmodes.spectrum import spectrum
 from grainmodes.stability import complex_pairs
@@ -96,7 +95,7 @@ def probes(
     packing: Packing, law: ContactLaw, protocol: Protocol, attempt: Attempts
 ) -> dict[str, object]:
     """The row of a jammed packing; what failed is NaN and stands in `attempt.sentences`."""
-    rule, threshold = interaction(law), rattler_threshold(protocol.rattlers, law)
+    rule, threshold = interaction(law), protocol.rattlers.largest(law)
     row = {
         "g_forward_by_strain": [
             attempt(np.nan, forward_rigidity, packing, rule, step, threshold)

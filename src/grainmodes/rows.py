@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from grainmodes.dataset import VARIABLES, Block
+from grainmodes.dataset import VARIABLES, Block, BlockError
+from grainmodes.parameters import ContactLaw
 from grainmodes.provenance import code_version
 
 SAMPLE_ERRORS = (ArithmeticError, ValueError, np.linalg.LinAlgError, MemoryError)
@@ -43,6 +44,22 @@ def block_of(
     variables = {"seed": np.array(seeds)} | _stacked(rows)
     described = {"code_version": code_version(), "failures": failures}
     return Block(variables, attributes | described)
+
+
+def response_block(packings: Block, stage: str, config: dict, law: ContactLaw, sample) -> Block:
+    """The block of an observable of `packings`, which carries their parameters along."""
+    absent = [name for name in ("n", "phi") if name not in packings.attributes]
+    if absent:
+        raise BlockError(f"the packings have no attribute {' and no '.join(absent)}")
+    point = {name: packings.attributes[name] for name in ("n", "phi")} | {"kt": law.kt}
+    attributes = described(stage, attribute(packings, "config") | config, **point)
+    failures = attribute(packings, "failures")
+    return block_of(packings.variables["seed"], sample, failures, attributes)
+
+
+def described(stage: str, config: dict, **point: float) -> dict[str, object]:
+    """The attributes of a block of a stage."""
+    return {"title": f"grainmodes: {stage}", "stage": stage, "config": config} | point
 
 
 def _stacked(rows: list[dict[str, object]]) -> dict[str, np.ndarray]:

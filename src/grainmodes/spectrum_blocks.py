@@ -18,7 +18,6 @@ from dataclasses import asdict
 import numpy as np
 
 from grainmodes.binning import fixed_edges
-from grainmodes.blocks import rattler_threshold, response_block
 from grainmodes.dataset import Block
 from grainmodes.hessian import effective_hessian
 from grainmodes.kernels.laws import interaction
@@ -31,6 +30,7 @@ from grainmodes.parameters import (
     Rattlers,
     SpectrumChoices,
 )
+from grainmodes.rows import response_block
 from grainmodes.samples import jammed_packing
 from grainmodes.spectrum import Bands, Problem, Spectrum, band_averages, full_spectrum, problem
 
@@ -47,7 +47,7 @@ def spectrum_block(
     processes: int = 1,
 ) -> Block:
     """The spectrum of every packing without its rattlers; `processes` share its windows."""
-    rule, threshold = interaction(law), rattler_threshold(rattlers, law)
+    rule, threshold = interaction(law), rattlers.largest(law)
     edges = fixed_edges(law.kt, choices.fineness)
 
     def sample(number: int) -> dict[str, object]:
@@ -93,7 +93,7 @@ def hessian_block(
     packings: Block, law: ContactLaw, rattlers: Rattlers, choices: SpectrumChoices
 ) -> Block:
     """Modes of the effective Hessian in bins, tangent stiffnesses and printed ones: A, (H4)."""
-    rule, threshold = interaction(law), rattler_threshold(rattlers, law)
+    rule, threshold = interaction(law), rattlers.largest(law)
     edges = fixed_edges(law.kt, choices.fineness)
 
     def sample(number: int) -> dict[str, object]:

@@ -4,7 +4,7 @@ import pytest
 
 from .conftest import SCENE, jobs_in
 
-AFTER_POINTS = {"point": 4, "ensemble": 1, "checks": 1, "figure": 2}
+AFTER_POINTS = {"point": 4, "ensemble": 1, "checks": 1, "claims": 1, "figure": 2}
 
 
 def scene_with(**changes) -> dict:
