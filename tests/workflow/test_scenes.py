@@ -9,7 +9,7 @@ from grainmodes.dataset import read_block
 from .conftest import SCENE, jobs_in
 
 PACKINGS = {"compress": 6, "pack": 2}
-END = {"ensemble": 1, "checks": 1}
+END = {"ensemble": 1, "checks": 1, "claims": 1}
 
 
 def scene_of(observables: dict, **changes) -> dict:
@@ -35,7 +35,7 @@ def test_only_eigenvalues(fresh):
 
 def test_every_observable(fresh):
     asked = ["rattlers", "hessian", "fields", "probes"]
-    fresh.write_scene(scene_of(dict.fromkeys(asked, True) | {"spectrum": "counts"}))
+    fresh.write_scene(scene_of(dict.fromkeys(asked, True) | {"spectrum": "eigenvalues"}))
     plan = fresh.run("-n", "-p")
     jobs = jobs_in(plan)
     for stage in ("spectrum", "spectrum_rattlers", "spectrum_hessian", "probes", "fields"):
