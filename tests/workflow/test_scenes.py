@@ -30,7 +30,7 @@ def test_only_eigenvalues(fresh):
     plan = fresh.run("-n", "-p")
     assert '"eigenvalues"' in plan
     assert '"modes"' not in plan
-    assert jobs_in(plan) == PACKINGS | {"spectrum": 4, "point": 4, "figure": 2} | END
+    assert jobs_in(plan) == PACKINGS | {"spectrum": 4, "point": 4, "figure": 3} | END
 
 
 def test_every_observable(fresh):
