@@ -62,8 +62,10 @@ def test_every_packing_is_in_balance_at_its_density(n, phi, seed, normal, relaxa
 
 @few(20)
 @given(n=sizes, phi=st.floats(0.6, 0.7), seed=seeds)
-def test_dilute_grains_do_not_touch(n, phi, seed):
-    assert len(find_contacts(compressed(n, phi, seed)).i) == 0
+def test_dilute_grains_carry_no_force(n, phi, seed):
+    """A contact may be left whose force, ξ^(3/2), is below the tolerance of the balance."""
+    overlap = find_contacts(compressed(n, phi, seed)).overlap
+    assert np.all(overlap**1.5 < 1e-14)
 
 
 @few(15)
