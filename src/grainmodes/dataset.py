@@ -126,7 +126,10 @@ VARIABLES: dict[str, Variable] = {
     "residual": Variable(BLOCK, "f8", "k_N d^(1/2)", "largest eigenpair residual |J v - lambda v|"),
     "g_mode_sum": Variable(BLOCK, "f8", MODULUS, "g as a sum over the modes"),
     "spectrum_method": Variable(
-        BLOCK, "i1", "1", "how the spectrum was computed: 1 dense, 2 windows, 3 counting"
+        BLOCK,
+        "i1",
+        "1",
+        "how the spectrum was computed: 0 no modes, 1 dense, 2 windows, 3 counting",
     ),
     "factorisation": Variable(
         BLOCK, "i1", "1", "sparse factorisation of the spectrum: 0 none, 1 superlu, 2 pardiso"

@@ -22,9 +22,9 @@ from scipy.sparse.linalg import splu
 PARDISO_FROM = 3000
 """Rows from which PARDISO is worth its start-up time."""
 
-GROWTH = 1e12
-"""Largest entry of the factors, in the largest of the matrix: beyond, the entries of the matrix are
-lost below the rounding of the factors, and with them the count."""
+GROWTH = 1e9
+"""Largest entry of the factors, in the largest of the matrix: the entries of the matrix are kept to
+1e-16 of it, so that a count is right at λ (1 ± 1e-7) even at the worst shift that is accepted."""
 
 PARDISO_CHOICES = {
     1: 1,  # the choices below instead of defaults

@@ -7,8 +7,10 @@ is the number of eigenvalues of J below σ. With
 
 every row has entries of order one: the rotational rows of a weakly frictional packing, k_T/k_N
 times smaller than the others, keep their relative accuracy, and a count is right at λ (1 ± 1e-12)
-even where λ is far below the rounding of ‖J‖. σ may differ from row to row, for counts in two
-shifts (`spectrum.counting`).
+even where λ is far below the rounding of ‖J‖. Elimination without pivoting, as in SuperLU, keeps it
+at any scale; PARDISO chooses its pivots by size and needs S.
+
+σ may differ from row to row, for counts in two shifts (`spectrum.counting`).
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ import scipy.sparse as sparse
 
 from grainmodes.factorisation import ZeroPivotError, factorisation
 
-NUDGES = (0.0, 2e-14, 1e-12, 5e-11)
+NUDGES = (0.0, 2e-14, 1e-12, 5e-11, 3e-9)
 """Relative steps off a shift that is an eigenvalue of J, or of the part of J eliminated so far, to
 rounding."""
 

@@ -163,10 +163,11 @@ def _nothing(kind: str, edges: np.ndarray, columns: int) -> dict[str, object]:
     """The row of a packing that is not jammed: it has no modes."""
     none = np.zeros(0)
     if kind not in BINNED:
-        row = _modes(Spectrum(none, none, none, 0.0), columns, kind)
+        row = _modes(Spectrum(none, none, none, 0.0, method="auto"), columns, kind)
         return row | ({"g_mode_sum": 0.0} if kind == "modes" else {})
     bins, empty = len(edges) - 1, np.full(len(edges) - 1, np.nan)
-    return _bins(Bands(edges, np.zeros(bins, int), 0, 0, empty, empty, empty, empty), kind)
+    nothing = Bands(edges, np.zeros(bins, int), 0, 0, empty, empty, empty, empty, method="auto")
+    return _bins(nothing, kind)
 
 
 def _padded(values: np.ndarray, length: int) -> np.ndarray:

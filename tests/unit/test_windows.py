@@ -1,5 +1,8 @@
 """Eigenpairs in windows: none missing, none twice, each by its residual and against LAPACK."""
 
+import os
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.sparse as sparse
@@ -96,8 +99,32 @@ def test_nearest_are_the_nearest():
     assert np.abs(residual).max() < 1e-10
 
 
-def test_an_unstable_matrix_is_refused():
-    of = problem(reference(MINIMAL[0])[1], elastic(MINIMAL[0], 1.0))
-    shifted = type(of)((of.matrix - sparse.eye_array(of.size)).tocsc(), of.k, True)
-    with pytest.raises(ArithmeticError, match="not a stable packing"):
-        full_spectrum(shifted, choices=SpectrumChoices("windows"))
+def test_negative_eigenvalues_are_found_too():
+    of = problem(quenched(64, 0.90), elastic("hertz", 1.0))
+    weak = problem(quenched(64, 0.90), elastic("hertz", 1e-4))
+    unstable = replace(of, matrix=(2.0 * weak.matrix - of.matrix).tocsc())
+    forces = np.random.default_rng(0).standard_normal((of.size, 1))
+    windowed, whole = (
+        full_spectrum(unstable, forces=forces, choices=SpectrumChoices(method))
+        for method in ("windows", "dense")
+    )
+    assert np.count_nonzero(whole.eigenvalue < -0.1) > 10
+    np.testing.assert_allclose(windowed.eigenvalue, whole.eigenvalue, atol=1e-13)
+    apart = np.abs(whole.eigenvalue) > 1e-3
+    for name in ("psi_rotational", "participation_ratio"):
+        one, other = (getattr(found, name)[apart] for found in (windowed, whole))
+        np.testing.assert_allclose(one, other, atol=1e-7)
+    np.testing.assert_allclose(
+        np.abs(windowed.projection[apart]), np.abs(whole.projection[apart]), atol=1e-6
+    )
+
+
+def die(values, vectors):
+    os._exit(1)
+
+
+def test_a_process_that_dies_fails_its_sample():
+    of = problem(quenched(64, 0.90), elastic("hertz", 1e-4))
+    parts = windows.split(of.shift(), FLOOR, of.bound)
+    with pytest.raises(MemoryError, match="killed"):
+        windows.measured(of, "superlu", parts, die, processes=2)

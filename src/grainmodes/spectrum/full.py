@@ -5,13 +5,13 @@
 | dense   | M³, 5 M² numbers                                     | M ≤ `DENSE_UP_TO`  |
 | windows | M^1.5, sparse factors; the same numbers, certified   | larger symmetric J |
 
-Windows begin at λ = `FLOOR`; of the modes below, which are zero modes to rounding, they give the
-number, an eigenvalue 0 and nothing else.
+Windows cover |λ| ≥ `FLOOR`, those of λ < 0 as the positive eigenvalues of −J; of the modes between,
+which are zero modes to rounding, they give the number, an eigenvalue 0 and nothing else.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -32,7 +32,7 @@ FLOOR = 1e-14
 class Spectrum:
     """Eigenvalues (M,), ascending by real part, k_N d^(1/2); the rest is None if not asked for.
 
-    `psi_rotational` and `participation_ratio` are (M,), NaN for zero modes below the first window;
+    `psi_rotational` and `participation_ratio` are (M,), NaN for zero modes between the windows;
     `residual` is max_n ‖J R_n − λ_n R_n‖ with ‖R_n‖ = 1; `projection` (M, F) is R_n · f of the
     forces asked for; `modes` is (M, M), one column a mode, degrees of freedom (x, y[, ℓ]) grain by
     grain, and exists only where the method is "dense". `factorisation` is the one of the windows.
@@ -64,7 +64,7 @@ def full_spectrum(
 
     Raises:
         ValueError: windows are asked for and J is not symmetric.
-        ArithmeticError: eigenpairs are missing, or J has negative eigenvalues (windows).
+        ArithmeticError: eigenpairs are missing (windows).
         numpy.linalg.LinAlgError: LAPACK did not converge.
     """
     forces = np.zeros((problem.size, 0)) if forces is None else forces
@@ -93,14 +93,22 @@ def _spectrum(measured: Measured, **more) -> Spectrum:
 def _by_windows(problem: Problem, forces, backend: str, processes: int) -> Spectrum:
     shift = problem.shift(backend)
     unstable, below = (shift.to(edge).count for edge in (-FLOOR, FLOOR))
+    found = [_zero_modes(below - unstable, forces.shape[1])]
     if unstable:
-        raise ArithmeticError(f"{unstable} eigenvalues are negative: not a stable packing")
+        turned = replace(problem, matrix=-problem.matrix)
+        below_zero = _window_by_window(turned, turned.shift(backend), forces, processes)
+        found = [part.turned() for part in reversed(below_zero)] + found
+    found += _window_by_window(problem, shift, forces, processes)
+    return _spectrum(Measured.joined(found), method="windows", factorisation=shift.name)
+
+
+def _window_by_window(problem: Problem, shift, forces, processes: int) -> list[Measured]:
+    """The modes of every λ ≥ `FLOOR`."""
     parts = windows.split(shift, FLOOR, problem.bound)
     measure = partial(Measured.of, problem.matrix, problem.k, forces)
-    found = windows.measured(problem, shift.name, parts, measure, processes)
-    unknown = np.full(below, np.nan)
-    zero_modes = Measured(
-        np.zeros(below), unknown, unknown, np.zeros(below), np.zeros((below, forces.shape[1]))
-    )
-    measured = Measured.joined([zero_modes, *found])
-    return _spectrum(measured, method="windows", factorisation=shift.name)
+    return windows.measured(problem, shift.name, parts, measure, processes)
+
+
+def _zero_modes(count: int, forces: int) -> Measured:
+    unknown, zero = np.full(count, np.nan), np.zeros(count)
+    return Measured(zero, unknown, unknown, zero, np.zeros((count, forces)))

@@ -40,6 +40,11 @@ class Measured(NamedTuple):
         """Modes of several windows below each other."""
         return cls(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
 
+    def turned(self) -> Measured:
+        """The modes of −J, which are those of J from the highest to the lowest."""
+        modes = Measured(*(column[::-1] for column in self))
+        return modes._replace(eigenvalue=-modes.eigenvalue)
+
 
 def rotational_fraction(weight: np.ndarray) -> np.ndarray:
     """ψ^R of every mode from |R|² of shape (N, k, M): A (50); 0 where rotation does not exist."""

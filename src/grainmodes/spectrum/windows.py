@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import get_context
 from typing import NamedTuple
 
@@ -196,13 +197,17 @@ def measured(
 
     Raises:
         WindowError: the pairs found in a window are not as many as the counts say.
+        MemoryError: a process died.
     """
     if processes == 1:
         shift = problem.shift(backend)
         return [measure(*eigenpairs(shift, window)) for window in windows]
     given = problem, backend, measure
     with ProcessPoolExecutor(processes, get_context("spawn"), _Worker.start, given) as pool:
-        return list(pool.map(_Worker.run, windows))
+        try:
+            return list(pool.map(_Worker.run, windows))
+        except BrokenProcessPool as error:
+            raise MemoryError("a process that computes windows was killed") from error
 
 
 class _Worker:
