@@ -17,6 +17,7 @@ from grainmodes.claims.claim import (
     claim,
 )
 from grainmodes.claims.estimates import Estimate, crossing, jackknife, mean, relative_difference
+from grainmodes.claims.paper_a import CLAIMS
 from grainmodes.cli import main
 
 NAMES = [f"A{number}" for number in range(1, 20)]
@@ -24,7 +25,7 @@ LARGEST = {"n": claimed.NS[-1], "phi": 0.90}
 
 
 def verdicts(ensemble):
-    return {verdict.claim: verdict for verdict in check(ensemble)}
+    return {verdict.claim: verdict for verdict in check(ensemble, CLAIMS)}
 
 
 def theory_off(ensemble):
@@ -255,7 +256,7 @@ def test_points_that_the_grid_lacks_are_named(grid, names, lack):
     "grid", [{"kt": [0.0]}, {"kt": [10.0]}, {"phi": [0.90], "kt": [1e-8]}, {"seed": [0]}]
 )
 def test_an_ensemble_of_few_points_has_no_verdict_against_a_claim(grid):
-    found = check(claimed.ensemble().sel(grid))
+    found = check(claimed.ensemble().sel(grid), CLAIMS)
     assert [verdict.claim for verdict in found] == NAMES
     assert CONTRADICTED not in {verdict.verdict for verdict in found}
 
@@ -263,7 +264,7 @@ def test_an_ensemble_of_few_points_has_no_verdict_against_a_claim(grid):
 def test_points_that_were_not_computed_change_no_verdict():
     ensemble = claimed.ensemble()
     larger = ensemble.reindex(n=[32, 64, 128], phi=[0.86, 0.87, 0.88, 0.90])
-    assert {v.verdict for v in check(larger)} == {HOLDS}
+    assert {v.verdict for v in check(larger, CLAIMS)} == {HOLDS}
 
 
 def test_failed_and_unjammed_samples_are_left_out():
@@ -348,7 +349,7 @@ def test_a_sign_that_never_changes_contradicts_the_sign_change():
 
 
 def test_reports_hold_every_claim(tmp_path):
-    found = check(claimed.ensemble().drop_vars("g_simulated"))
+    found = check(claimed.ensemble().drop_vars("g_simulated"), CLAIMS)
     for suffix in report.FORMS:
         report.write(found, tmp_path / f"claims{suffix}")
     with open(tmp_path / "claims.csv", encoding="utf-8", newline="") as file:
