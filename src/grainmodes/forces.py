@@ -27,6 +27,12 @@ def forces_on_i(contacts: Contacts, interaction: Interaction) -> np.ndarray:
     return contact_forces(interaction, contacts.normal, contacts.overlap, contacts.displacement)
 
 
+def tangential_forces(interaction: Interaction, overlap: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """f_T of contacts with these overlaps and tangential displacements, (C,)."""
+    along_x = np.tile([1.0, 0.0], (len(s), 1))
+    return contact_forces(interaction, along_x, overlap, s)[:, 2]
+
+
 def net_force(packing: Packing, contacts: Contacts, interaction: Interaction) -> np.ndarray:
     """F̃ on every grain: (N, 2) frictionless, else (N, 3) = (F_x, F_y, 2 T/d), in k_N d^(3/2)."""
     forces = forces_on_i(contacts, interaction)

@@ -73,6 +73,24 @@ class StepStrain:
 
 
 @dataclass(frozen=True)
+class Shear:
+    """Athermal quasistatic shear from 0 to `strain` in steps of `step` (B, Sec. II, App. B).
+
+    A step with a plastic event is taken back and divided by ten, down to `smallest_step`.
+    """
+
+    strain: float = 0.5
+    step: float = 1e-4
+    smallest_step: float = 1e-8
+    relaxation: str = "newton"
+    loaded: bool = False
+    force_tolerance: float = 1e-14
+    time_step: float = 1e-2
+    drag: float = 1.0
+    max_steps: int = 20_000_000
+
+
+@dataclass(frozen=True)
 class Rattlers:
     """A grain with at most `threshold` contacts is a rattler (Z_Th of A, App. E)."""
 
