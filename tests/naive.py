@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.parameters import ContactLaw
+from grainmodes.parameters.law import ContactLaw
 
 COMPLEX_STEP = 1e-30
 ON_J = np.array([-1.0, -1.0, 1.0])

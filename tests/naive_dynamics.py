@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import naive
-from grainmodes.parameters import ContactLaw
+from grainmodes.parameters.law import ContactLaw
 
 F_INC, F_DEC, CHI_START, F_CHI, N_MIN = 1.1, 0.5, 0.1, 0.99, 5
 DT_INITIAL, DT_MAX = 0.01, 0.1

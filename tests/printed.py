@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 import naive
-from grainmodes.parameters import ContactLaw
+from grainmodes.parameters.law import ContactLaw
 
 
 def both_ways(pairs: list[naive.Pair]):

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from grainmodes.dataset import Block, write_block
+from grainmodes.dataset.files import Block, write_block
 from grainmodes.ensemble import gather_point, write_ensemble
-from grainmodes.parameters import format_value
+from grainmodes.parameters.grid import format_value
 
 JAMMING = 0.845
 STAGES = ("packings", "rigidity", "step_strain", "spectrum")

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from dataclasses import asdict
 
-from grainmodes.dataset import Block
+from grainmodes.dataset.files import Block
 from grainmodes.forces import largest, net_force
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import find_contacts
-from grainmodes.parameters import Compression, ContactLaw, Rattlers, StepStrain
+from grainmodes.parameters.law import ContactLaw, Rattlers
+from grainmodes.parameters.protocol import Compression, StepStrain
 from grainmodes.protocols.compression import advanced, balanced, placed
 from grainmodes.protocols.step_strain import step_strain
 from grainmodes.rigidity import Moduli, rigidity

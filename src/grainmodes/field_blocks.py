@@ -10,7 +10,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from grainmodes.dataset import Block
+from grainmodes.dataset.files import Block
 from grainmodes.fields import (
     affine_field,
     mode_sum_field,
@@ -20,12 +20,11 @@ from grainmodes.fields import (
 )
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import Packing
-from grainmodes.parameters import ContactLaw, Rattlers, StepStrain
+from grainmodes.parameters.fields import MOST_FOR_ALL_MODES
+from grainmodes.parameters.law import ContactLaw, Rattlers
+from grainmodes.parameters.protocol import StepStrain
 from grainmodes.rows import attribute, response_block
 from grainmodes.samples import jammed_packing, seed_of
-
-MOST_FOR_ALL_MODES = 2048
-"""Grains up to which all modes are found: A's Fig. 3 has 1024, and 4096 take ten minutes."""
 
 
 def fields_block(

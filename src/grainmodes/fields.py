@@ -27,7 +27,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.neighbours import RESOLUTION
 from grainmodes.modes import mode_sum
 from grainmodes.packing import Packing, find_contacts, rattlers
-from grainmodes.parameters import SpectrumChoices, StepStrain
+from grainmodes.parameters.protocol import SpectrumChoices, StepStrain
 from grainmodes.protocols.step_strain import relaxed_steps
 from grainmodes.rigidity import rigidity
 from grainmodes.spectrum import Problem, problem, spectrum, windows

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from grainmodes import blocks
-from grainmodes.dataset import Block
+from grainmodes.dataset.files import Block
 from grainmodes.ensemble.point import merge_blocks
-from grainmodes.parameters import ContactLaw, Protocol, checkpoints_up_to
+from grainmodes.parameters.grid import checkpoints_up_to
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.protocol import Protocol
 from grainmodes.spectrum_blocks import spectrum_block
 
 

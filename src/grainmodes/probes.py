@@ -21,14 +21,15 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
-from grainmodes.dataset import Block
+from grainmodes.dataset.files import Block
 from grainmodes.hessian import effective_hessian
 from grainmodes.jacobian import jacobian
 from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.laws import Interaction, interaction
 from grainmodes.modes import ModeRigidity
 from grainmodes.packing import Packing, find_contacts
-from grainmodes.parameters import ContactLaw, Protocol, StepStrain
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.protocol import Protocol, StepStrain
 from grainmodes.protocols.frictional_compression import frictional_compression
 from grainmodes.protocols.step_strain import forward_rigidity
 from grainmodes.relaxation.accuracy import step_orders

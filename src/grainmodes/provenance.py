@@ -32,7 +32,7 @@ def kernel_hash() -> str:
 
     Narrower than `source_hash`, so that an edit of a figure does not compile the kernels anew.
     """
-    return _fingerprint([*(PACKAGE / "kernels").rglob("*.py"), PACKAGE / "parameters.py"])
+    return _fingerprint([*(PACKAGE / "kernels").rglob("*.py"), PACKAGE / "parameters" / "law.py"])
 
 
 def code_version() -> str:

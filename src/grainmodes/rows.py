@@ -7,8 +7,9 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from grainmodes.dataset import VARIABLES, Block, BlockError
-from grainmodes.parameters import ContactLaw
+from grainmodes.dataset import VARIABLES
+from grainmodes.dataset.files import Block, BlockError
+from grainmodes.parameters.law import ContactLaw
 from grainmodes.provenance import code_version
 
 SAMPLE_ERRORS = (ArithmeticError, ValueError, np.linalg.LinAlgError, MemoryError)

@@ -6,7 +6,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from grainmodes.dataset import Block, BlockError
+from grainmodes.dataset.files import Block, BlockError
 from grainmodes.forces import largest, mean_contact_force, net_force, stress
 from grainmodes.kernels.laws import Frictionless, Interaction
 from grainmodes.packing import (
@@ -17,7 +17,7 @@ from grainmodes.packing import (
     find_contacts,
     rattlers,
 )
-from grainmodes.parameters import Compression
+from grainmodes.parameters.protocol import Compression
 from grainmodes.protocols.compression import Trajectory
 from grainmodes.rows import attribute
 

@@ -18,24 +18,16 @@ from dataclasses import asdict
 import numpy as np
 
 from grainmodes.binning import fixed_edges
-from grainmodes.dataset import Block
+from grainmodes.dataset.files import Block
 from grainmodes.hessian import effective_hessian
 from grainmodes.kernels.laws import interaction
 from grainmodes.modes import ModeRigidity
 from grainmodes.packing import backbone, find_contacts
-from grainmodes.parameters import (
-    FACTORISATIONS,
-    SPECTRUM_METHODS,
-    ContactLaw,
-    Rattlers,
-    SpectrumChoices,
-)
+from grainmodes.parameters.law import ContactLaw, Rattlers
+from grainmodes.parameters.protocol import BINNED, FACTORISATIONS, SPECTRUM_METHODS, SpectrumChoices
 from grainmodes.rows import response_block
 from grainmodes.samples import jammed_packing
 from grainmodes.spectrum import Bands, Problem, Spectrum, band_averages, full_spectrum, problem
-
-BINNED = ("counts", "bands")
-"""Kinds of spectrum that hold bins rather than modes."""
 
 
 def spectrum_block(

@@ -16,12 +16,14 @@ from pathlib import Path
 import numpy as np
 
 from grainmodes import blocks
-from grainmodes.dataset import write_block
+from grainmodes.dataset.files import write_block
 from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.fire import FireSettings, fire
 from grainmodes.kernels.laws import Hertz, interaction
-from grainmodes.parameters import Compression, ContactLaw, checkpoints_up_to, phi_at_step
+from grainmodes.parameters.grid import checkpoints_up_to, phi_at_step
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.protocol import Compression
 from grainmodes.protocols.compression import advanced, balanced, placed
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fast, relax_loosely

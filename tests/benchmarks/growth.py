@@ -23,7 +23,7 @@ import yaml
 
 from grainmodes.cost.table import COSTS, REFERENCE
 from grainmodes.environment import prepare
-from grainmodes.parameters import checkpoints_up_to
+from grainmodes.parameters.grid import checkpoints_up_to
 
 # Inherited by the processes that measure.
 prepare()

@@ -17,8 +17,8 @@ import cases
 from cases import HERTZ, PROTOCOL
 
 from grainmodes.cli import main
-from grainmodes.dataset import read_block, write_block
-from grainmodes.parameters import checkpoints_up_to
+from grainmodes.dataset.files import read_block, write_block
+from grainmodes.parameters.grid import checkpoints_up_to
 from grainmodes.protocols.compression import advanced, placed
 from grainmodes.relaxation.frictionless import relax_fast
 from grainmodes.rows import block_of

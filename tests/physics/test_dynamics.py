@@ -8,7 +8,7 @@ from grainmodes.kernels.damping import Dashpot, Drag, Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Elastic, Hertz, Interaction, interaction
 from grainmodes.packing import Packing, find_contacts
-from grainmodes.parameters import ContactLaw
+from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.dynamics import Motion, move, relax_damped
 from specimens import crowd, pairs_of, reference
 

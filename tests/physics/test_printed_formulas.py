@@ -11,7 +11,7 @@ from grainmodes.jacobian import jacobian, stiffness_of
 from grainmodes.kernels.fire import Pace, advance
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import Packing, find_contacts
-from grainmodes.parameters import ContactLaw
+from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.newton import newton
 from grainmodes.rigidity import Moduli, rigidity
 from grainmodes.spectrum import spectrum

@@ -8,7 +8,7 @@ import netCDF4
 import pytest
 
 from grainmodes.cli import main
-from grainmodes.dataset import read_block, write_block
+from grainmodes.dataset.files import read_block, write_block
 
 HEAVY = ("numba", "xarray", "matplotlib", "scipy", "numpy", "jsonschema")
 

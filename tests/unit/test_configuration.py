@@ -15,7 +15,9 @@ from grainmodes.configuration.grid_rules import AREA_PER_GRAIN
 from grainmodes.configuration.grids import TOGETHER, lacking
 from grainmodes.configuration.rules import NEEDED
 from grainmodes.configuration.schema import complete, schema
-from grainmodes.parameters import FIGURES, Figure, Point, Protocol
+from grainmodes.parameters.figures import FIGURES, Figure
+from grainmodes.parameters.grid import Point
+from grainmodes.parameters.protocol import Protocol
 
 CONFIG = Path(__file__).parents[2] / "config"
 GRID = {"n": [16, 64], "phi": [0.84, 0.9], "kt": [1e-4, 1.0], "seeds": 4}
@@ -271,6 +273,9 @@ WITH_HESSIAN = {"observables": {"hessian": True}, "n": [128]}
         ("spectrum frictionless", [ONLY_G | FRICTIONLESS, ONLY_SPECTRA], ["frictionless"]),
         ("spectrum friction frictionless", [ONLY_SPECTRA, ONLY_SPECTRA | FRICTIONLESS], []),
         ("modes friction", [ONLY_SPECTRA], ["modes"]),
+        ("fields all_modes", [ONLY_G | {"n": [2048]}], ["fields"]),
+        ("spectrum all_modes", [ONLY_SPECTRA | {"n": [2048]}], []),
+        ("spectrum all_modes", [ONLY_SPECTRA | {"n": [4096]}], ["all_modes"]),
         ("spectrum several_n", [ONLY_SPECTRA], []),
         ("spectrum several_n", [ONLY_SPECTRA | {"n": [16]}], ["several_n"]),
         ("spectrum several_n", [ONLY_SPECTRA | {"n": [16]}, ONLY_SPECTRA | {"n": [64]}], []),

@@ -15,7 +15,7 @@ from grainmodes.cli import main
 from grainmodes.configuration import read_scene, scene_of
 from grainmodes.cost import COSTS, Law, estimate, read_table, wall_seconds
 from grainmodes.cost.work import work
-from grainmodes.parameters import Compression, SpectrumChoices
+from grainmodes.parameters.protocol import Compression, SpectrumChoices
 
 
 class Timed(NamedTuple):

@@ -12,7 +12,8 @@ import pytest
 import xarray as xr
 from numpy.testing import assert_array_equal
 
-from grainmodes.dataset import VARIABLES, Block, BlockError, read_block, write_block
+from grainmodes.dataset import VARIABLES
+from grainmodes.dataset.files import Block, BlockError, read_block, write_block
 
 DATA_MD = Path(__file__).parents[2] / "docs" / "data.md"
 
@@ -73,7 +74,7 @@ def test_a_full_disk_leaves_nothing(tmp_path):
     program = f"""
 import resource, signal
 import numpy as np
-from grainmodes.dataset import Block, write_block
+from grainmodes.dataset.files import Block, write_block
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
 noise = np.random.default_rng(0).random((4, 100_000))

@@ -9,7 +9,7 @@ import xarray as xr
 from numpy.testing import assert_allclose, assert_array_equal
 
 import synthetic
-from grainmodes.dataset import BlockError, read_block, write_block
+from grainmodes.dataset.files import BlockError, read_block, write_block
 from grainmodes.ensemble import gather_point, merge_blocks, open_ensemble, write_ensemble
 from grainmodes.ensemble.averages import averages
 from grainmodes.ensemble.spectra import spectrum

@@ -8,12 +8,12 @@ from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
 from numpy.testing import assert_allclose, assert_array_equal
 
-from grainmodes.dataset import Block, BlockError, write_block
+from grainmodes.dataset.files import Block, BlockError, write_block
 from grainmodes.figures import affine_fields, draw, eigenvectors, nonaffine_field
 from grainmodes.figures.field_rows import grains
 from grainmodes.figures.grain_maps import OUTLINED, Scale, draw_map, rounded
 from grainmodes.figures.selection import Options
-from grainmodes.parameters import FIGURES
+from grainmodes.parameters.figures import FIGURES
 
 OF_FIELDS = [name for name, figure in FIGURES.items() if figure.source == "fields"]
 MODULES = {

@@ -17,7 +17,8 @@ from grainmodes.fields import (
 )
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import Packing, find_contacts
-from grainmodes.parameters import ContactLaw, Rattlers, StepStrain
+from grainmodes.parameters.law import ContactLaw, Rattlers
+from grainmodes.parameters.protocol import StepStrain
 from grainmodes.protocols.step_strain import relaxed_steps
 from grainmodes.rows import block_of
 from grainmodes.samples import packed
@@ -58,7 +59,7 @@ def test_the_simulation_is_the_theory(name, kt):
 def test_the_sum_over_the_modes_has_its_vectors_at_every_size(monkeypatch):
     packing, law = reference(MINIMAL[0])[1], elastic("hertz", 1e-2)
     expected = mode_sum_field(packing, law)
-    monkeypatch.setattr(full, "DENSE_UP_TO", 0)
+    monkeypatch.setattr(full, "DENSE_MODES_UP_TO", 0)
     assert_array_equal(mode_sum_field(packing, law), expected)
 
 

@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 import synthetic
-from grainmodes.dataset import BlockError, read_block, write_block
+from grainmodes.dataset.files import BlockError, read_block, write_block
 from grainmodes.ensemble import merge_blocks, open_ensemble, write_ensemble
 from grainmodes.ensemble.spectra import counted, points_with, spectrum
 from grainmodes.figures import (
@@ -29,7 +29,7 @@ from grainmodes.figures import (
     spectral_rows,
 )
 from grainmodes.figures.selection import Options
-from grainmodes.parameters import FIGURES
+from grainmodes.parameters.figures import FIGURES
 
 OF_ENSEMBLES = [name for name, figure in FIGURES.items() if figure.source == "ensemble"]
 

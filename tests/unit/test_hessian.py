@@ -8,7 +8,7 @@ from grainmodes.hessian import STIFFNESSES, effective_hessian
 from grainmodes.jacobian import jacobian
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import Packing, find_contacts
-from grainmodes.parameters import ContactLaw
+from grainmodes.parameters.law import ContactLaw
 from specimens import ELASTIC, FRICTIONLESS, LAWS, crowd, law_name, pairs_of, reference
 
 

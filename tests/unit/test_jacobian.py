@@ -9,7 +9,7 @@ import naive
 from grainmodes.jacobian import assemble, jacobian, stiffness_of
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import History, Packing, find_contacts
-from grainmodes.parameters import ContactLaw
+from grainmodes.parameters.law import ContactLaw
 from specimens import (
     ELASTIC,
     FRICTIONLESS,

@@ -19,7 +19,7 @@ from grainmodes.kernels.laws import (
     interaction,
     tangential_response,
 )
-from grainmodes.parameters import ContactLaw
+from grainmodes.parameters.law import ContactLaw
 from specimens import FRICTIONLESS, LAWS, few, law_name
 
 RIGHT = np.array([[1.0, 0.0]])

@@ -8,13 +8,14 @@ import pytest
 
 from grainmodes import probes
 from grainmodes.cli import main
-from grainmodes.dataset import Block, read_block, write_block
+from grainmodes.dataset.files import Block, read_block, write_block
 from grainmodes.jacobian import jacobian
 from grainmodes.kernels.damping import Dashpot, Undamped
 from grainmodes.kernels.laws import Hertz
 from grainmodes.modes import ModeRigidity, mode_sum
 from grainmodes.packing import Packing, find_contacts
-from grainmodes.parameters import ContactLaw, Protocol, StepStrain
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.protocol import Protocol, StepStrain
 from grainmodes.protocols.frictional_compression import frictional_compression, loosened
 from grainmodes.protocols.step_strain import forward_rigidity
 from grainmodes.relaxation.accuracy import step_orders

@@ -25,9 +25,10 @@ MODULES = sorted(provenance.PACKAGE.rglob("*.py"))
 
 TOY = {
     "__init__.py": "__version__ = '1'",
-    "parameters.py": "",
+    "parameters/__init__.py": "",
+    "parameters/law.py": "",
     "kernels/__init__.py": "",
-    "kernels/pair.py": "from grainmodes import parameters",
+    "kernels/pair.py": "from grainmodes.parameters import law",
     "left.py": "from grainmodes.kernels import pair",
     "right.py": "import grainmodes.lazy",
     "lazy.py": "def f():\n    from grainmodes.drawing.style import ink\n",
@@ -65,6 +66,7 @@ def names(*entries: str) -> set[str]:
 
 
 LEFT = {"__init__.py", "blocks.py", "left.py", "kernels/__init__.py", "kernels/pair.py"}
+LAW = {"parameters/__init__.py", "parameters/law.py"}
 RIGHT = {"__init__.py", "blocks.py", "right.py", "lazy.py"}
 DRAWING = {"drawing/__init__.py", "drawing/style.py", "drawing/house.mplstyle"}
 
@@ -72,11 +74,11 @@ DRAWING = {"drawing/__init__.py", "drawing/style.py", "drawing/house.mplstyle"}
 @pytest.mark.parametrize(
     ("entry", "expected"),
     [
-        ("blocks:left_block", LEFT | {"parameters.py"}),
+        ("blocks:left_block", LEFT | LAW),
         ("blocks:right_block", RIGHT | DRAWING),
         ("blocks:lone_block", {"__init__.py", "blocks.py"}),
-        ("blocks:hidden_block", LEFT | {"parameters.py"}),
-        ("blocks", LEFT | RIGHT | DRAWING | {"parameters.py"}),
+        ("blocks:hidden_block", LEFT | LAW),
+        ("blocks", LEFT | RIGHT | DRAWING | LAW),
         ("drawing", {"__init__.py", "drawing/__init__.py", "drawing/house.mplstyle"}),
     ],
 )
@@ -98,7 +100,7 @@ def test_entries_are_checked(toy):
 
 @pytest.mark.parametrize(
     ("edited", "compiles_anew"),
-    [("kernels/pair.py", True), ("parameters.py", True), ("left.py", False)],
+    [("kernels/pair.py", True), ("parameters/law.py", True), ("left.py", False)],
 )
 def test_fingerprints_follow_the_text(toy, edited, compiles_anew):
     before = provenance.source_hash(), provenance.kernel_hash()
@@ -133,7 +135,7 @@ def test_figures_stand_alone():
     "stage", ["rigidity", "step_strain", "spectrum", "fields", "compress", "pack"]
 )
 def test_every_computing_stage_counts_the_kernels_it_calls(stage):
-    assert {"kernels/laws.py", "kernels/compiler.py", "dataset.py"} <= names(STAGES[stage])
+    assert {"kernels/laws.py", "kernels/compiler.py", "dataset/files.py"} <= names(STAGES[stage])
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: path.name)
@@ -158,7 +160,7 @@ def test_only_kernels_are_compiled(path):
 
 
 def test_kernels_freeze_nothing_that_their_fingerprint_leaves_out():
-    known = {"__init__.py", "parameters.py", "environment.py", "provenance.py"}
+    known = LAW | {"__init__.py", "environment.py", "provenance.py"}
     for path in (provenance.PACKAGE / "kernels").glob("*.py"):
         reached = names(f"grainmodes.kernels.{path.stem}".removesuffix(".__init__"))
         assert {name for name in reached if not name.startswith("kernels/")} <= known

@@ -10,7 +10,7 @@ from grainmodes.kernels.damping import Dashpot, Drag, Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import Packing, find_contacts
-from grainmodes.parameters import ContactLaw
+from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fast, relax_fire, relax_loosely
 from grainmodes.relaxation.newton import moved_by, newton, slipped

@@ -7,7 +7,7 @@ import naive
 from grainmodes.jacobian import jacobian
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import Packing, find_contacts
-from grainmodes.parameters import ContactLaw
+from grainmodes.parameters.law import ContactLaw
 from grainmodes.spectrum import spectrum
 from grainmodes.spectrum.measures import participation_ratio, rotational_fraction
 from specimens import (

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from grainmodes.dataset import read_block
+from grainmodes.dataset.files import read_block
 
 from .conftest import SCENE, jobs_in
 

@@ -35,7 +35,7 @@ def main(argv: list[str] | None = None) -> int:
 
 def _mistakes() -> tuple[type[Exception], ...]:
     """What a user can cause; imported only once something went wrong."""
-    from grainmodes.dataset import BlockError
+    from grainmodes.dataset.files import BlockError
 
     return BlockError, ValueError, OSError
 

@@ -7,7 +7,10 @@ import json
 from pathlib import Path
 
 from grainmodes import __version__
-from grainmodes.parameters import FIGURES, NORMAL_LAWS, SPECTRA, TANGENTIAL_LAWS, parse_seeds
+from grainmodes.parameters.figures import FIGURES
+from grainmodes.parameters.grid import parse_seeds
+from grainmodes.parameters.law import NORMAL_LAWS, TANGENTIAL_LAWS
+from grainmodes.parameters.protocol import SPECTRA
 
 DESCRIPTION = """\
 Rigidity and vibrational modes of two-dimensional packings of frictional grains.

@@ -7,12 +7,12 @@ from __future__ import annotations
 from argparse import Namespace
 from pathlib import Path
 
-from grainmodes.parameters import FIGURES
+from grainmodes.parameters.figures import FIGURES
 
 
 def gather(arguments: Namespace) -> None:
     """Blocks of one point → the point."""
-    from grainmodes.dataset import write_block
+    from grainmodes.dataset.files import write_block
     from grainmodes.ensemble import gather_point
 
     write_block(arguments.output, gather_point(arguments.blocks))

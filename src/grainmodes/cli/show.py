@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import netCDF4
 import numpy as np
 
-from grainmodes.dataset import BlockError
+from grainmodes.dataset.files import BlockError
 
 LAST = ("config", "failures")
 """Attributes that are long; shown below the variables."""

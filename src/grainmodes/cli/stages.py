@@ -9,8 +9,8 @@ from pathlib import Path
 
 from grainmodes import blocks
 from grainmodes.configuration import ConfigurationError, Scene, scene_of
-from grainmodes.dataset import Block, BlockError, read_block, write_block
-from grainmodes.parameters import field_frequencies
+from grainmodes.dataset.files import Block, BlockError, read_block, write_block
+from grainmodes.parameters.fields import field_frequencies
 
 OPTIONS = {
     "grids[0].n[0]": "--n",

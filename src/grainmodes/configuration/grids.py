@@ -6,7 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import product
 
-from grainmodes.parameters import FIGURES, Point
+from grainmodes.parameters.fields import MOST_FOR_ALL_MODES
+from grainmodes.parameters.figures import FIGURES
+from grainmodes.parameters.grid import Point
 
 
 @dataclass(frozen=True)
@@ -85,6 +87,7 @@ class Grid:
 TOGETHER = {
     "friction": lambda grids: any(kt > 0.0 for grid in grids for kt in grid.kt),
     "frictionless": lambda grids: any(kt == 0.0 for grid in grids for kt in grid.kt),
+    "all_modes": lambda grids: any(n <= MOST_FOR_ALL_MODES for grid in grids for n in grid.n),
     "several_n": lambda grids: len({n for grid in grids for n in grid.n}) > 1,
     "several_phi": lambda grids: len({phi for grid in grids for phi in grid.phi}) > 1,
 }

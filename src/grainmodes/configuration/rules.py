@@ -6,7 +6,9 @@ from collections.abc import Iterator
 
 from grainmodes.configuration.grid_rules import grid_conflicts
 from grainmodes.configuration.grids import Grid, lacking
-from grainmodes.parameters import CHECKPOINT_SPACING, FIGURES, LOWEST_CHECKPOINT
+from grainmodes.parameters.fields import MOST_FOR_ALL_MODES
+from grainmodes.parameters.figures import FIGURES
+from grainmodes.parameters.grid import CHECKPOINT_SPACING, LOWEST_CHECKPOINT
 
 
 def conflicts(config: dict) -> Iterator[str]:
@@ -77,6 +79,7 @@ NEEDED = {
     "fields": "observables.fields: true",
     "friction": "these observables at a kt above 0",
     "frictionless": "these observables at kt = 0",
+    "all_modes": f"these observables at an n of at most {MOST_FOR_ALL_MODES}",
     "several_n": "these observables at more than one n",
     "several_phi": "these observables at more than one phi",
 }

@@ -6,16 +6,9 @@ import json
 from dataclasses import asdict, dataclass, replace
 
 from grainmodes.configuration.grids import Grid, drawable
-from grainmodes.parameters import (
-    Compression,
-    ContactLaw,
-    Point,
-    Protocol,
-    Rattlers,
-    SpectrumChoices,
-    StepStrain,
-    seed_blocks,
-)
+from grainmodes.parameters.grid import Point, seed_blocks
+from grainmodes.parameters.law import ContactLaw, Rattlers
+from grainmodes.parameters.protocol import Compression, Protocol, SpectrumChoices, StepStrain
 
 
 @dataclass(frozen=True)

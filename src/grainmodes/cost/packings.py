@@ -12,7 +12,7 @@ from itertools import pairwise
 from grainmodes.configuration import Scene
 from grainmodes.cost.item import Item, Job
 from grainmodes.cost.table import Table
-from grainmodes.parameters import (
+from grainmodes.parameters.grid import (
     checkpoint_at_or_below,
     checkpoints_up_to,
     parse_seeds,

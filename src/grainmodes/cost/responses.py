@@ -8,7 +8,7 @@ from grainmodes.configuration import Grid, Scene
 from grainmodes.cost.item import Item, Job
 from grainmodes.cost.table import Table
 from grainmodes.cost.work import degrees_of_freedom, work
-from grainmodes.parameters import Point, parse_seeds, seed_blocks
+from grainmodes.parameters.grid import Point, parse_seeds, seed_blocks
 
 NUMBERS = {"counts": 0, "bands": 0, "eigenvalues": 1, "modes": 3}
 """Numbers per mode that a kind of spectrum stores."""

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import yaml
 
-from grainmodes.parameters import Compression
+from grainmodes.parameters.protocol import Compression
 
 COSTS = Path(__file__).with_name("costs.yaml")
 """The table that comes with the package."""
@@ -53,7 +53,6 @@ class Table:
     laws: dict[str, Law]
     climb: dict[float, float]
     compression: dict[str, float]
-    dense_up_to: dict[str, int]
     job: dict[str, float]
     disk: dict[str, float]
 

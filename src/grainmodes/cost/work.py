@@ -17,13 +17,13 @@ from grainmodes.binning import (
     ROTATIONAL_DIVISIONS,
 )
 from grainmodes.cost.table import Table
-from grainmodes.parameters import SpectrumChoices
-
-BINNED = ("counts", "bands")
-"""Kinds of spectra that need no eigenvalue."""
-
-PARDISO_FROM = 3000
-"""Degrees of freedom from which `factorisation: auto` takes PARDISO where it is installed."""
+from grainmodes.parameters.protocol import (
+    BINNED,
+    DENSE_BINS_UP_TO,
+    DENSE_MODES_UP_TO,
+    PARDISO_FROM,
+    SpectrumChoices,
+)
 
 
 def work(
@@ -72,7 +72,7 @@ def _spectrum(kind: str, n: int, kt: float, choices: SpectrumChoices, table: Tab
 
 def _dense(kind: str, modes: int, method: str, table: Table) -> bool:
     named = method == "windows" or (method == "counting" and kind in BINNED)
-    limit = table.dense_up_to["bins" if kind in BINNED else "all"]
+    limit = DENSE_BINS_UP_TO if kind in BINNED else DENSE_MODES_UP_TO
     return method == "dense" or (not named and modes <= limit)
 
 

@@ -15,7 +15,8 @@ from pathlib import Path
 
 import numpy as np
 
-from grainmodes.dataset import VARIABLES, Block, BlockError, read_block
+from grainmodes.dataset import VARIABLES
+from grainmodes.dataset.files import Block, BlockError, read_block
 
 STAGES = (
     "packings",

@@ -6,14 +6,12 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grainmodes.dataset import BlockError
-from grainmodes.parameters import ContactLaw
+from grainmodes.dataset.files import BlockError
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.protocol import SpectrumChoices
 
 if TYPE_CHECKING:
     import xarray as xr
-
-FINENESS = 0.2
-"""Factor on the numbers of linear bins of A's spectra where the configuration is silent."""
 
 DIMENSIONS = ("n", "phi", "kt", "seed", "mode")
 
@@ -64,4 +62,4 @@ def normal_law(ensemble: xr.Dataset) -> str:
 def fineness(ensemble: xr.Dataset) -> float:
     """Factor on the numbers of linear bins that the study chose for its spectra."""
     protocol = json.loads(ensemble.attrs["config"]).get("protocol", {})
-    return protocol.get("spectrum", {}).get("fineness", FINENESS)
+    return protocol.get("spectrum", {}).get("fineness", SpectrumChoices().fineness)

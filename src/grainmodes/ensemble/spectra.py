@@ -16,7 +16,7 @@ import xarray as xr
 
 from grainmodes import binning, statistics
 from grainmodes.binning import Binned, Sums
-from grainmodes.dataset import BlockError
+from grainmodes.dataset.files import BlockError
 from grainmodes.ensemble.reading import variable
 
 

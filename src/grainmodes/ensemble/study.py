@@ -16,7 +16,8 @@ from typing import NamedTuple
 import netCDF4
 import numpy as np
 
-from grainmodes.dataset import VARIABLES, Block, BlockError, new_file, read_block
+from grainmodes.dataset import VARIABLES
+from grainmodes.dataset.files import Block, BlockError, new_file, read_block
 
 GRID = ("n", "phi", "kt")
 INTEGER_FILL = -1

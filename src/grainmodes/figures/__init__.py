@@ -26,7 +26,7 @@ from grainmodes.atomic import replaced
 from grainmodes.ensemble import open_ensemble
 from grainmodes.figures import appearance, field_rows
 from grainmodes.figures.selection import Options
-from grainmodes.parameters import FIGURES
+from grainmodes.parameters.figures import FIGURES
 
 STYLE = Path(__file__).with_name("grainmodes.mplstyle")
 RESOLUTION = 300

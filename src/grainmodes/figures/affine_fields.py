@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas as pd
 from matplotlib.figure import Figure
 
-from grainmodes.dataset import Block
+from grainmodes.dataset.files import Block
 from grainmodes.figures import appearance
 from grainmodes.figures.field_rows import (
     GRAINS,

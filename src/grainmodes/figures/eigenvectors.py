@@ -11,7 +11,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
 
-from grainmodes.dataset import Block
+from grainmodes.dataset.files import Block
 from grainmodes.figures import appearance
 from grainmodes.figures.field_rows import (
     GRAINS,

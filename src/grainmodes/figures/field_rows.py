@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from grainmodes.dataset import Block, BlockError, read_block
+from grainmodes.dataset.files import Block, BlockError, read_block
 from grainmodes.figures.selection import Options, largest_or
 from grainmodes.rows import attribute
 

@@ -10,7 +10,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grainmodes.dataset import Block
+from grainmodes.dataset.files import Block
 from grainmodes.figures import appearance
 from grainmodes.figures.field_rows import (
     COMPONENTS,

@@ -30,7 +30,7 @@ import math
 from typing import NamedTuple
 
 from grainmodes.kernels.compiler import implements
-from grainmodes.parameters import ContactLaw
+from grainmodes.parameters.law import ContactLaw
 
 
 class Hertz(NamedTuple):

@@ -17,14 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import stdtrit
 
-from grainmodes.parameters import SpectrumChoices
+from grainmodes.parameters.protocol import DENSE_BINS_UP_TO, SpectrumChoices
 from grainmodes.spectrum import dense, windows
 from grainmodes.spectrum.counting import Sums, counts, rotational_sums
 from grainmodes.spectrum.measures import participation_ratio, rotational_fraction
 from grainmodes.spectrum.problem import Problem
-
-DENSE_UP_TO = 2000
-"""Degrees of freedom up to which LAPACK's whole spectrum is cheaper than counts."""
 
 GROUPS = 8
 """Shifts in a bin around which modes are sampled."""
@@ -67,7 +64,7 @@ def band_averages(
     """
     if not problem.symmetric:
         raise ValueError("bins of frequency need a symmetric Jacobian, every s = 0")
-    small = choices.method == "auto" and problem.size <= DENSE_UP_TO
+    small = choices.method == "auto" and problem.size <= DENSE_BINS_UP_TO
     if small or choices.method == "dense":
         return _dense(problem, edges, averages)
     shift = problem.shift(choices.factorisation)

@@ -2,7 +2,7 @@
 
 | method  | what it costs                                        | chosen             |
 | ------- | ---------------------------------------------------- | ------------------ |
-| dense   | M³, 5 M² numbers                                     | M ≤ `DENSE_UP_TO`  |
+| dense   | M³, 5 M² numbers                                     | M ≤ 5000           |
 | windows | M^1.5, sparse factors; the same numbers, certified   | larger symmetric J |
 
 Windows cover |λ| ≥ `FLOOR`, those of λ < 0 as the positive eigenvalues of −J; of the modes between,
@@ -16,13 +16,10 @@ from functools import partial
 
 import numpy as np
 
-from grainmodes.parameters import SpectrumChoices
+from grainmodes.parameters.protocol import DENSE_MODES_UP_TO, SpectrumChoices
 from grainmodes.spectrum import dense, windows
 from grainmodes.spectrum.measures import Measured
 from grainmodes.spectrum.problem import Problem
-
-DENSE_UP_TO = 5000
-"""Degrees of freedom up to which LAPACK is the faster one."""
 
 FLOOR = 1e-14
 """λ of the lowest safe edge, ω t_0 = 1e-7: what lies below cannot be told from a zero mode."""
@@ -82,7 +79,7 @@ def _method(problem: Problem, asked: str) -> str:
         raise ValueError("windows need a symmetric Jacobian, every s = 0; allowed is dense")
     if asked in ("dense", "windows"):
         return asked
-    return "windows" if problem.symmetric and problem.size > DENSE_UP_TO else "dense"
+    return "windows" if problem.symmetric and problem.size > DENSE_MODES_UP_TO else "dense"
 
 
 def _spectrum(measured: Measured, **more) -> Spectrum:

@@ -4,66 +4,65 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grainmodes import parameters
-from grainmodes.parameters import CHECKPOINT_SPACING, LOWEST_CHECKPOINT
+from grainmodes.parameters import fields, grid
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_text_of_a_number_reads_back(value):
-    assert float(parameters.format_value(value)) == value
+    assert float(grid.format_value(value)) == value
 
 
 @given(st.integers())
 def test_text_of_a_whole_number_reads_back(value):
-    assert int(parameters.format_value(value)) == value
+    assert int(grid.format_value(value)) == value
 
 
 def test_equal_numbers_have_one_text():
-    assert parameters.format_value(0.840) == parameters.format_value(0.84) == "0.84"
+    assert grid.format_value(0.840) == grid.format_value(0.84) == "0.84"
 
 
 @given(st.integers(0, 10**6), st.integers(0, 10**6))
 def test_text_of_a_block_reads_back(first, length):
-    text = parameters.format_seeds(first, first + length)
-    assert parameters.parse_seeds(text) == range(first, first + length + 1)
+    text = grid.format_seeds(first, first + length)
+    assert grid.parse_seeds(text) == range(first, first + length + 1)
 
 
 @pytest.mark.parametrize("text", ["", "3", "a-b", "5-3", "-1-3", "0-1-2"])
 def test_block_names_are_checked(text):
     with pytest.raises(ValueError, match="expected first-last"):
-        parameters.parse_seeds(text)
+        grid.parse_seeds(text)
 
 
 @given(st.integers(1, 500), st.integers(1, 50))
 def test_blocks_hold_every_seed_once(count, size):
-    blocks = [parameters.parse_seeds(text) for text in parameters.seed_blocks(count, size)]
+    blocks = [grid.parse_seeds(text) for text in grid.seed_blocks(count, size)]
     assert [seed for block in blocks for seed in block] == list(range(count))
     assert all(len(block) == size for block in blocks[:-1])
 
 
 @given(st.integers(1, 50), st.integers(1, 50), st.integers(1, 20))
 def test_growing_by_whole_blocks_keeps_the_old_ones(blocks, more, size):
-    old = parameters.seed_blocks(blocks * size, size)
-    assert parameters.seed_blocks((blocks + more) * size, size)[:blocks] == old
+    old = grid.seed_blocks(blocks * size, size)
+    assert grid.seed_blocks((blocks + more) * size, size)[:blocks] == old
 
 
-@given(st.floats(LOWEST_CHECKPOINT, 1.2))
+@given(st.floats(grid.LOWEST_CHECKPOINT, 1.2))
 def test_a_checkpoint_lies_at_or_just_below(phi):
-    checkpoint = parameters.checkpoint_at_or_below(phi)
-    assert checkpoint <= phi + 1e-6 * CHECKPOINT_SPACING
-    assert phi - checkpoint < CHECKPOINT_SPACING
+    checkpoint = grid.checkpoint_at_or_below(phi)
+    assert checkpoint <= phi + 1e-6 * grid.CHECKPOINT_SPACING
+    assert phi - checkpoint < grid.CHECKPOINT_SPACING
 
 
 @given(st.integers(0, 40))
 def test_a_checkpoint_is_its_own(step):
-    phi = round(LOWEST_CHECKPOINT + step * CHECKPOINT_SPACING, 12)
-    assert parameters.checkpoint_at_or_below(phi) == phi
+    phi = round(grid.LOWEST_CHECKPOINT + step * grid.CHECKPOINT_SPACING, 12)
+    assert grid.checkpoint_at_or_below(phi) == phi
 
 
 @given(st.integers(0, 6000))
 def test_steps_of_the_compression_do_not_drift(step):
-    assert parameters.phi_at_step(0.6, 1e-4, step) == pytest.approx(0.6 + step / 1e4, abs=1e-12)
-    assert len(parameters.format_value(parameters.phi_at_step(0.6, 1e-4, step))) <= 6
+    assert grid.phi_at_step(0.6, 1e-4, step) == pytest.approx(0.6 + step / 1e4, abs=1e-12)
+    assert len(grid.format_value(grid.phi_at_step(0.6, 1e-4, step))) <= 6
 
 
 @pytest.mark.parametrize(
@@ -76,4 +75,4 @@ def test_steps_of_the_compression_do_not_drift(step):
     ],
 )
 def test_single_modes_are_those_of_the_paper(kt, frequencies):
-    assert parameters.field_frequencies(kt) == frequencies
+    assert fields.field_frequencies(kt) == frequencies

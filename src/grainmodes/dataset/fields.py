@@ -1,0 +1,29 @@
+"""Names of fields, (x, y, l) of every grain; NaN: a rattler."""
+
+from __future__ import annotations
+
+from grainmodes.dataset.variable import Variable
+
+NAMES = {
+    "affine_field": Variable(
+        ("seed", "grain", "component"), "f8", "d", "affine displacement per unit strain, (x, y, l)"
+    ),
+    "nonaffine_field": Variable(
+        ("seed", "grain", "component"), "f8", "d", "non-affine displacement per unit strain"
+    ),
+    "nonaffine_field_mode_sum": Variable(
+        ("seed", "grain", "component"), "f8", "d", "nonaffine_field as a sum over the modes"
+    ),
+    "nonaffine_field_simulated": Variable(
+        ("seed", "grain", "component"), "f8", "d", "nonaffine_field from relaxed step strains"
+    ),
+    "frequency_asked": Variable(
+        ("seed", "frequency"), "f8", "1/t_0", "frequency near which an eigenvector is sought"
+    ),
+    "frequency_found": Variable(
+        ("seed", "frequency"), "f8", "1/t_0", "frequency of the mode nearest to frequency_asked"
+    ),
+    "eigenvector": Variable(
+        ("seed", "frequency", "grain", "component"), "f8", "1", "its eigenvector, of norm 1"
+    ),
+}

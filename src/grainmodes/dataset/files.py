@@ -1,0 +1,109 @@
+"""Reading and writing blocks: a block is a dictionary of arrays.
+
+Writing is atomic (temporary name, then rename) and the bytes depend on nothing but the content, so
+that a resumed study ends with the same files as an unbroken one.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+
+from grainmodes.atomic import replaced
+from grainmodes.dataset import VARIABLES
+
+
+class BlockError(Exception):
+    """A file that is not a readable block; the message says which file and why."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """Arrays by name, and the attributes that say where they come from."""
+
+    variables: dict[str, np.ndarray]
+    attributes: dict[str, object]
+
+
+def write_block(path: str | Path, block: Block) -> None:
+    """Write a block: all of it or nothing.
+
+    `block.variables` maps names of `VARIABLES` to arrays with those dimensions. Attribute values
+    are numbers, text, or dictionaries (stored as sorted JSON).
+
+    Raises:
+        KeyError: a name is not in `VARIABLES`.
+        ValueError: two arrays disagree about the length of a dimension.
+        OSError: the file cannot be written; nothing is left under `path`.
+    """
+    with new_file(path) as file:
+        _write(file, block)
+
+
+@contextmanager
+def new_file(path: str | Path) -> Iterator[netCDF4.Dataset]:
+    """A netCDF file to write into, which stands under `path` only once it is whole.
+
+    Raises:
+        OSError: the file cannot be written; whatever stood under `path` is untouched.
+    """
+    try:
+        with replaced(path) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
+            yield file
+    except RuntimeError as error:
+        raise OSError(f"{path}: cannot be written; is the disk full? ({error})") from error
+
+
+def _write(file: netCDF4.Dataset, block: Block) -> None:
+    for name, value in sorted(block.attributes.items()):
+        file.setncattr(
+            name, json.dumps(value, sort_keys=True) if isinstance(value, dict) else value
+        )
+    for name, array in block.variables.items():
+        row = VARIABLES[name]
+        array = np.asarray(array, dtype=row.dtype)
+        for dimension, length in zip(row.dimensions, array.shape, strict=True):
+            if dimension not in file.dimensions:
+                file.createDimension(dimension, length)
+            elif len(file.dimensions[dimension]) != length:
+                raise ValueError(
+                    f"{name}: dimension {dimension} has length {length}, "
+                    f"elsewhere {len(file.dimensions[dimension])}"
+                )
+        compressed = {"zlib": True, "complevel": 1, "shuffle": True} if array.ndim > 1 else {}
+        variable = file.createVariable(name, row.dtype, row.dimensions, **compressed)
+        variable.units = row.units
+        variable.long_name = row.long_name
+        variable[...] = array
+
+
+def read_block(path: str | Path) -> Block:
+    """Read a block whole.
+
+    Raises:
+        BlockError: no such file, not netCDF, truncated, or without the `seed` dimension.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise BlockError(f"{path}: no such file")
+    try:
+        with netCDF4.Dataset(path) as file:
+            file.set_auto_mask(False)
+            variables = {name: variable[...] for name, variable in file.variables.items()}
+            attributes = {name: file.getncattr(name) for name in file.ncattrs()}
+    except (OSError, RuntimeError) as error:
+        raise BlockError(
+            f"{path}: not a readable netCDF file, or a truncated one ({error})"
+        ) from error
+    unknown = sorted(set(variables) - set(VARIABLES))
+    if unknown:
+        raise BlockError(f"{path}: unknown variable {', '.join(unknown)}, see docs/data.md")
+    if "seed" not in variables:
+        raise BlockError(f"{path}: holds no variable 'seed', so it is not a block of samples")
+    return Block(variables, attributes)

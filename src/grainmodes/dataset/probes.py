@@ -1,0 +1,36 @@
+"""Names of what single claims need."""
+
+from __future__ import annotations
+
+from grainmodes.dataset.variable import BLOCK, MODULUS, Variable
+
+NAMES = {
+    "probe_strain": Variable(("seed", "probe"), "f8", "1", "step strains of g_forward_by_strain"),
+    "g_forward_by_strain": Variable(
+        ("seed", "probe"), "f8", MODULUS, "rigidity from one forward step strain of each size"
+    ),
+    "g_translational": Variable(
+        BLOCK, "f8", MODULUS, "g as a sum over the modes with psi^R < 1/2 alone"
+    ),
+    "hessian_difference": Variable(
+        BLOCK,
+        "f8",
+        "1",
+        "max |H - J| / max |J| of the effective Hessian H, tangent stiffnesses",
+    ),
+    "hessian_printed_difference": Variable(
+        BLOCK, "f8", "1", "the same with the constants k_N and k_T"
+    ),
+    "verlet_order_position": Variable(
+        BLOCK, "f8", "1", "order up to which a step of velocity Verlet is right in q"
+    ),
+    "verlet_order_velocity": Variable(
+        BLOCK, "f8", "1", "order up to which a step of velocity Verlet is right in dq/dt"
+    ),
+    "complex_pairs_frictional": Variable(
+        BLOCK, "f8", "1", "complex pairs of eigenvalues of J / M after compression with friction"
+    ),
+    "jammed_frictional": Variable(
+        BLOCK, "f8", "1", "1 if the state compressed with friction is jammed, else 0"
+    ),
+}

@@ -1,0 +1,80 @@
+"""The table of figures: what each shows, and what a study must ask for to draw it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Figure:
+    """What a figure shows, what its study must ask for, and what it is drawn from.
+
+    `observables` are words of `configuration.grids`; `source` is "ensemble", or "fields" for the
+    files of single samples.
+    """
+
+    title: str
+    observables: tuple[str, ...]
+    source: str = "ensemble"
+
+
+FIGURES = {
+    "g_phi": Figure("Rigidity against area fraction (paper A, Fig. 4)", ("rigidity",)),
+    "g_kt": Figure(
+        "Rigidity against tangential stiffness (paper A, Fig. 5)", ("rigidity", "friction")
+    ),
+    "g_nonaffine": Figure(
+        "Non-affine rigidity, unloaded and loaded step strain (paper A, Fig. 6)", ("rigidity",)
+    ),
+    "participation": Figure(
+        "Translational and rotational fractions of the modes (paper A, Fig. 8)",
+        ("modes", "friction"),
+    ),
+    "dos": Figure("Density of states (paper A, Fig. 9)", ("spectrum",)),
+    "dos_scaled": Figure(
+        "Density of states, scaled by omega_R (paper A, Fig. 10)", ("spectrum", "friction")
+    ),
+    "affine_fields": Figure(
+        "Affine and non-affine displacements of a step strain (paper A, Fig. 2)",
+        ("fields",),
+        "fields",
+    ),
+    "nonaffine_field": Figure(
+        "Non-affine displacements, theory and simulation (paper A, Fig. 3)",
+        ("fields", "all_modes"),
+        "fields",
+    ),
+    "eigenvectors": Figure(
+        "Eigenvectors as displacements and rotations (paper A, Fig. 7)",
+        ("fields", "friction"),
+        "fields",
+    ),
+    "dos_frictionless": Figure(
+        "Density of states at weak friction and without (paper A, Fig. 11)",
+        ("spectrum", "friction", "frictionless"),
+    ),
+    "dos_hessian": Figure(
+        "Density of states of the Jacobian and of the effective Hessian (paper A, Fig. 12)",
+        ("spectrum", "friction", "hessian"),
+    ),
+    "dos_rattlers": Figure(
+        "Density of states with and without rattlers (paper A, Fig. 13)",
+        ("spectrum", "friction", "rattlers"),
+    ),
+    "participation_ratio": Figure(
+        "Participation ratio of the modes (paper A, Fig. 14)", ("modes", "friction")
+    ),
+    "dos_n": Figure(
+        "Density of states for several N (paper A, Fig. 15)",
+        ("spectrum", "friction", "several_n"),
+    ),
+    "dos_phi": Figure(
+        "Density of states towards jamming (paper A, Fig. 16)",
+        ("spectrum", "friction", "several_phi"),
+    ),
+}
+"""Every figure. `rigidity` figures show the simulated step strain as well where a study has it;
+`modes` stands for a spectrum with eigenvectors or band averages, `friction` for a k_T above 0,
+`frictionless` for k_T = 0 beside it, `rattlers` and `hessian` for these variants of the spectrum,
+`all_modes` for an N whose modes can all be summed, `several_n` and `several_phi` for spectra at
+more than one N or φ."""

@@ -1,0 +1,34 @@
+"""The contact law of a scene, and which grains it calls rattlers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+NORMAL_LAWS = ("hertz", "harmonic")
+TANGENTIAL_LAWS = ("elastic", "smoothed_coulomb", "sharp_coulomb")
+
+
+@dataclass(frozen=True)
+class ContactLaw:
+    """The force between two touching grains; `kt = 0` is frictionless, whatever `tangential`."""
+
+    normal: str = "hertz"
+    tangential: str = "elastic"
+    kt: float = 0.0
+    friction_coefficient: float | None = None
+
+    @property
+    def frictional(self) -> bool:
+        """Whether rotation and tangential force exist at all."""
+        return self.kt > 0.0
+
+
+@dataclass(frozen=True)
+class Rattlers:
+    """A grain with at most `threshold` contacts is a rattler (Z_Th of A, App. E)."""
+
+    threshold: int = 2
+
+    def largest(self, law: ContactLaw) -> int:
+        """Most contacts of a rattler; without friction two carry no load whatever is asked."""
+        return self.threshold if law.frictional else max(self.threshold, 2)
