@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.kernels.contacts import contact_forces, normal_forces
+from grainmodes.kernels.energies import contact_energies
 from grainmodes.kernels.laws import Frictionless, Interaction
 from grainmodes.packing import Contacts, Packing
 
@@ -57,6 +58,11 @@ def stress(packing: Packing, contacts: Contacts, interaction: Interaction) -> np
     branch = contacts.normal * contacts.distance[:, None]
     forces = forces_on_i(contacts, interaction)[:, :2]
     return -(forces.T @ branch) / packing.box_length**2
+
+
+def energy(contacts: Contacts, interaction: Interaction) -> float:
+    """Energy stored in the contacts: see `kernels.energies`."""
+    return float(contact_energies(interaction, contacts.overlap, contacts.displacement).sum())
 
 
 def mean_contact_force(contacts: Contacts, interaction: Interaction) -> float:

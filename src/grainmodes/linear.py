@@ -89,9 +89,9 @@ class _General:
         self._scale = 1.0 / np.sqrt(diagonal)
         column = np.repeat(np.arange(matrix.shape[0]), np.diff(matrix.indptr))
         scaled = self._scale[matrix.indices] * matrix.data * self._scale[column]
-        self._indices = matrix.indices
-        suits = isinstance(like, _General) and np.array_equal(like._indices, matrix.indices)
-        self._factors = copy(like._factors) if suits else SuperLU(matrix)
+        self._pattern = matrix.indptr, matrix.indices
+        self._factors = like.ordered(self._pattern) if isinstance(like, _General) else None
+        self._factors = self._factors or SuperLU(matrix)
         try:
             self.count = self._factors.refill(scaled) % 2
         except ZeroPivotError:
@@ -99,6 +99,11 @@ class _General:
             self._factors = splu(sparse.csc_array(entries, shape=matrix.shape))
             signs = np.count_nonzero(self._factors.U.diagonal() < 0.0)
             self.count = (signs + odd(self._factors.perm_r) + odd(self._factors.perm_c)) % 2
+
+    def ordered(self, pattern: tuple[np.ndarray, np.ndarray]) -> SuperLU | None:
+        """Factors to be refilled in the order of these, where the pattern is the same."""
+        same = all(map(np.array_equal, self._pattern, pattern))
+        return copy(self._factors) if same and isinstance(self._factors, SuperLU) else None
 
     def solve(self, force: np.ndarray) -> np.ndarray:
         return self._scale * self._factors.solve(self._scale * force)

@@ -185,6 +185,20 @@ class Packing:
         )
 
 
+def nonaffine_motion(before: Packing, after: Packing) -> np.ndarray:
+    """(Δr̊, Δℓ̊) of every grain between two states of a packing, exact in the fractions; (N, k) in d.
+
+    r = L (s_x + γ s_y, s_y), of which the change of γ alone is the affine part. Without rotation
+    k is 2.
+    """
+    x, y = (after.fraction - before.fraction) * (RESOLUTION * before.box_length)
+    moved = [x + after.strain * y, y]
+    if after.rotation is not None:
+        at_first = 0.0 if before.rotation is None else before.rotation
+        moved.append(after.rotation - at_first)
+    return np.stack(moved, axis=1)
+
+
 def find_contacts(packing: Packing) -> Contacts:
     """All touching pairs, r < (d_i + d_j)/2, with s from the history where there is one.
 

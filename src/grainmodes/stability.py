@@ -1,4 +1,7 @@
-"""Complex pairs of eigenvalues, and with them oscillatory instability: A, footnote 1; C.
+"""Eigenvalues on which the stability of a state hangs: A, footnote 1; B, Figs. 3, 7, 13; C.
+
+The lowest eigenvalue of J tells how far a state is from giving way (B). Complex pairs make it grow
+oscillations (C):
 
     M q̈ = −J q,   M = diag(m, m, m/2) grain by grain      iω = ±√(−λ'), λ' of M⁻¹J
 
@@ -9,9 +12,12 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.linalg
+import scipy.sparse as sparse
+from scipy.sparse.linalg import LinearOperator, eigs
 
 from grainmodes.jacobian import jacobian
 from grainmodes.kernels.laws import Interaction
+from grainmodes.linear import PinnedFactor
 from grainmodes.packing import Packing, find_contacts
 
 INERTIA = np.array([1.0, 1.0, 0.5])
@@ -31,3 +37,40 @@ def complex_pairs(packing: Packing, interaction: Interaction) -> int:
     scale = 1.0 / np.sqrt(packing.mass[:, None] * INERTIA).ravel()
     values = scipy.linalg.eigvals(scale[:, None] * matrix * scale, overwrite_a=True)
     return int(np.count_nonzero(values.imag > REAL))
+
+
+SMALL = 60
+"""Degrees of freedom up to which the lowest eigenvalue is found densely."""
+
+
+def lowest_eigenvalue(matrix: sparse.csc_array, factor: PinnedFactor, k: int) -> float:
+    """Smallest |λ| of J but its two translations, with the sign of its real part: B, Sec. IV.
+
+    Args:
+        matrix: J (M, M), k degrees of freedom a grain.
+        factor: its factors, by which J⁻¹ on forces without a sum is iterated.
+    """
+    size = matrix.shape[0]
+    if size <= SMALL:
+        values = scipy.linalg.eigvals(matrix.toarray())
+        values = values[np.argsort(np.abs(values))][2:]
+        return _signed(values[0]) if len(values) else np.nan
+    inverse = LinearOperator(
+        (size, size),
+        matvec=lambda f: _centred(factor.solve(_centred(f, k), refined=False), k),
+        dtype=float,
+    )
+    start = _centred(np.random.default_rng(0).standard_normal(size), k)
+    largest = eigs(inverse, k=1, which="LM", v0=start, return_eigenvectors=False)
+    return _signed(1.0 / largest[0])
+
+
+def _centred(field: np.ndarray, k: int) -> np.ndarray:
+    """A field (kN,) without its translation."""
+    grains = field.reshape(-1, k).copy()
+    grains[:, :2] -= grains[:, :2].mean(axis=0)
+    return grains.ravel()
+
+
+def _signed(value: complex) -> float:
+    return float(np.copysign(abs(value), value.real))

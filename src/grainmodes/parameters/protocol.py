@@ -58,7 +58,8 @@ class Shear:
     """Athermal quasistatic shear from 0 to `strain` in steps of `step` (B, Sec. II, App. B).
 
     A step with an event is taken back and divided by ten, down to `smallest_step`. `newton` leaves
-    to the damped dynamics, with `time_step` and `drag`, only what it cannot decide.
+    to the damped dynamics, with `time_step` and `drag`, only what it cannot decide. The lowest
+    eigenvalue of J is found on both sides of "events", or of all "states".
     """
 
     strain: float = 0.5
@@ -67,9 +68,10 @@ class Shear:
     relaxation: str = "newton"
     loaded: bool = False
     force_tolerance: float = 1e-14
-    time_step: float = 1e-2
+    time_step: float = 0.1
     drag: float = 1.0
     max_steps: int = 20_000_000
+    lowest_eigenvalue: str = "events"
 
 
 @dataclass(frozen=True)

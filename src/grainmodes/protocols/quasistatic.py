@@ -1,4 +1,4 @@
-"""One step of athermal quasistatic shear: affine, then relaxed to the balance it leads to. B, Sec. II.
+"""One step of athermal quasistatic shear: affine, then relaxed to the balance it leads to: B.
 
     r_i → r_i + Δγ (y_i, 0),   then J u = F̃ until max|F̃| < F_Th
 
@@ -6,14 +6,20 @@ The affine step leaves the tangential springs alone (`unloaded`, B), or stretche
 continuous shear would (`loaded`): s → s + Δγ t·(r_y, 0), t at the middle of the step.
 
 Which balance a step leads to is defined by B's damped dynamics, q̈ = M⁻¹F̃ − η q̇ from the affine
-state. Newton's method finds the same one as long as the balance merely moves. Where it does not
-converge, where it ends on a saddle, or where the balance it finds lies farther off than `FAR`
-elastic steps, the dynamics decides, and Newton only sharpens the end.
+state. Newton's method finds the same one as long as the balance moves on continuously. It does not
+decide
+
+- where it finds no balance, or a saddle of J;
+- where a contact opens that still bears a tangential force. A harmonic contact without slip bears
+  k_T s at zero overlap and lets go of it at once; it may close again with s = 0, and where it does
+  depends on the path.
+
+There the dynamics decides and Newton only sharpens the end.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -22,39 +28,33 @@ from grainmodes.kernels.damping import Drag
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing import History, Packing, find_contacts
 from grainmodes.parameters.protocol import Shear
-from grainmodes.relaxation.balance import Balance, find_balance
+from grainmodes.relaxation.balance import Balance
 from grainmodes.relaxation.dynamics import relax_damped
+from grainmodes.relaxation.following import find_balance
 from grainmodes.relaxation.frictionless import relax_fast
+from grainmodes.relaxation.result import Relaxed
 
 BASIN = 1e-6
 """max|F̃|, relative to the mean contact force, at which dynamics hands over to Newton's method."""
 
-NEWTON, DYNAMICS = 0, 1
-"""How a balance was found."""
+DEEPER = 0.01
+"""Factor on that where Newton's method leaves the basin."""
 
 
-@dataclass(frozen=True)
-class Step:
-    """The balance after a step, and how it was found: `NEWTON` or `DYNAMICS`."""
-
-    balance: Balance
-    how: int
-
-
-def balance_of(packing: Packing, interaction: Interaction, choices: Shear) -> Balance:
+def first_balance(packing: Packing, interaction: Interaction, choices: Shear) -> Balance:
     """The balance of a packing that is in balance already, or nearly.
 
     Raises:
         ArithmeticError: there is none nearby.
     """
     found = find_balance(packing, interaction, choices.force_tolerance)
-    if found is None:
-        raise ArithmeticError(f"no force balance near the packing at strain {packing.strain}")
+    if found is None or found.unstable:
+        raise ArithmeticError(f"no stable balance near the packing at strain {packing.strain}")
     return found
 
 
-def step_to(strain: float, before: Balance, choices: Shear) -> Step:
-    """The balance at another strain.
+def step_to(strain: float, before: Balance, choices: Shear) -> tuple[Balance, bool]:
+    """The balance at another strain, and whether the dynamics had to decide on it.
 
     Raises:
         ArithmeticError: none was found within `choices.max_steps` of the dynamics.
@@ -63,9 +63,13 @@ def step_to(strain: float, before: Balance, choices: Shear) -> Step:
     affine = affinely(before, strain, choices.loaded)
     if choices.relaxation == "newton":
         found = find_balance(affine, before.interaction, choices.force_tolerance, before)
-        if found is not None and not found.unstable:
-            return Step(found, NEWTON)
-    return Step(_by_dynamics(affine, before.interaction, choices), DYNAMICS)
+        if found is not None and _decided(found, choices):
+            return found, False
+    return _by_dynamics(affine, before.interaction, choices), True
+
+
+def _decided(found: Balance, choices: Shear) -> bool:
+    return found.lost <= choices.force_tolerance and not found.unstable
 
 
 def affinely(before: Balance, strain: float, loaded: bool) -> Packing:
@@ -76,30 +80,39 @@ def affinely(before: Balance, strain: float, loaded: bool) -> Packing:
     contacts = before.contacts
     r = contacts.normal * contacts.distance[:, None]
     slide = (strain - before.packing.strain) * r[:, 1]
-    middle = np.stack([r[:, 0] + 0.5 * slide, r[:, 1]])
-    s = contacts.displacement + slide * middle[1] / np.hypot(*middle)
+    s = contacts.displacement + slide * r[:, 1] / np.hypot(r[:, 0] + 0.5 * slide, r[:, 1])
     return replace(sheared, history=History(contacts.i, contacts.j, s))
 
 
 def _by_dynamics(packing: Packing, interaction: Interaction, choices: Shear) -> Balance:
-    """Damped dynamics into a basin, Newton's method to its bottom; deeper in if that leaves it."""
-    scale = mean_contact_force(find_contacts(packing), interaction)
-    tolerance, left = max(BASIN * scale, choices.force_tolerance), choices.max_steps
+    """Dynamics into a basin, Newton's method to its bottom; deeper in if that fails."""
+    tolerance, left = _handover(packing, interaction, choices), choices.max_steps
     while left > 0:
-        if choices.relaxation == "damped":
-            tolerance = choices.force_tolerance
         relaxed = _relaxed(packing, interaction, tolerance, choices, left)
         found = find_balance(relaxed.packing, interaction, choices.force_tolerance)
-        if found is not None and not found.unstable:
+        if found is not None and _decided(found, choices):
             return found
-        packing, left = relaxed.packing, left - relaxed.iterations
-        tolerance *= 0.01
-        if tolerance < choices.force_tolerance:
+        if tolerance <= choices.force_tolerance:
             break
-    raise ArithmeticError(f"strain {packing.strain}: no balance after {choices.max_steps} steps")
+        packing, left = relaxed.packing, left - relaxed.iterations
+        tolerance = max(DEEPER * tolerance, choices.force_tolerance)
+    raise ArithmeticError(
+        f"strain {packing.strain}: no stable balance, max|F| = {relaxed.max_force:.1e} after "
+        f"{choices.max_steps - left + relaxed.iterations} steps of the dynamics"
+    )
 
 
-def _relaxed(packing: Packing, interaction, tolerance: float, choices: Shear, steps: int):
+def _handover(packing: Packing, interaction: Interaction, choices: Shear) -> float:
+    """max|F̃| at which the dynamics stops: B's own F_Th where nothing else is to relax."""
+    if choices.relaxation == "damped":
+        return choices.force_tolerance
+    mean = mean_contact_force(find_contacts(packing), interaction)
+    return max(BASIN * mean, choices.force_tolerance)
+
+
+def _relaxed(
+    packing: Packing, interaction, tolerance: float, choices: Shear, steps: int
+) -> Relaxed:
     if is_frictionless(interaction):
         return relax_fast(packing, interaction.normal, tolerance, steps)
     damping = Drag(choices.drag)

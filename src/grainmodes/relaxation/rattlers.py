@@ -14,7 +14,7 @@ TRIES = 100
 
 
 def moved_out(packing: Packing, normal, gone: np.ndarray) -> Packing:
-    """The packing with the rattlers of a (N,) mask moved by their normal forces until they are free.
+    """The packing with the rattlers of a (N,) mask moved by their normal forces until free.
 
     Three halves of the Newton step F/Σf_N' takes a lone Hertz contact exactly to zero overlap.
     """

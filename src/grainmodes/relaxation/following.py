@@ -1,0 +1,88 @@
+"""A force balance found from a state near it, contacts opening and closing on the way.
+
+    q → q + J⁻¹ F̃        F̃ of the grains that carry load, until max|F̃| < tolerance
+
+With the factors of the balance it comes from, a step between events takes three solutions and no
+factorisation. Where they do not gain a decade (a contact has opened or closed, or the forces bend),
+J is factored anew and the step shortened until max|F̃| falls. Each iterate is judged on its own
+contact network; grains that lose their hold on the way are left out, and those that are touched
+come back in. The balance may be a saddle: `Balance.unstable` tells.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes.kernels.laws import Interaction
+from grainmodes.linear import FloppyError, PinnedFactor
+from grainmodes.packing import Packing
+from grainmodes.relaxation.balance import GAIN, Balance
+from grainmodes.relaxation.rattlers import moved_out
+
+MOST = 40
+"""Iterations: ten times what a step between events needs."""
+
+SHORTEST_STEP = 0.1
+"""Fraction of a Newton step below which it is given up."""
+
+
+def find_balance(
+    packing: Packing, interaction: Interaction, tolerance: float, before: Balance | None = None
+) -> Balance | None:
+    """The balance near a state, max|F̃| < `tolerance`; None where the iteration does not lead there.
+
+    Args:
+        before: the balance it comes from, whose factors are used as long as they do.
+    """
+    inherited = before and before.handed_on
+    factor = inherited and inherited.factor
+    now = Balance.of(packing, interaction, factor)
+    for _ in range(MOST):
+        if before and factor and not np.array_equal(before.held, now.held):
+            factor = None
+        if now.residual < tolerance:
+            settled = _let_go(now)
+            if settled is now:
+                return now.heir(inherited if factor else None)
+            now, factor = settled, None
+        else:
+            now, factor = _step(now, factor, tolerance)
+            if now is None:
+                return None
+    return None
+
+
+def _step(
+    now: Balance, factor: PinnedFactor | None, tolerance: float
+) -> tuple[Balance | None, PinnedFactor | None]:
+    """The next iterate, and the factors given if they led there."""
+    if not now.held.any():
+        return None, None
+    if factor is not None:
+        after = now.moved(_displacement(now, factor))
+        if after.residual < max(GAIN * now.residual, tolerance):
+            return after, factor
+    try:
+        u = _displacement(now, now.factor)
+    except FloppyError:
+        return None, None
+    length = 1.0
+    while length >= SHORTEST_STEP:
+        after = now.moved(length * u)
+        if after.residual < now.residual:
+            return after, None
+        length *= 0.5
+    return None, None
+
+
+def _displacement(now: Balance, factor: PinnedFactor) -> np.ndarray:
+    return factor.solve(now.force, refined=False).reshape(now.force.shape)
+
+
+def _let_go(balance: Balance) -> Balance:
+    """The same if no loose grain touches anything, else the state with them moved out."""
+    loose = ~balance.held
+    if not np.any(loose[balance.contacts.i] | loose[balance.contacts.j]):
+        return balance
+    packing = moved_out(balance.packing, balance.interaction.normal, loose)
+    return Balance.of(packing, balance.interaction, balance.like, balance.lost)
