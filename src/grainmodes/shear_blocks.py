@@ -46,8 +46,7 @@ def shear_block(
         if not jammed:
             return {"curve_count": 0, "jammed": False, "converged": True}
         walk = (keeper and keeper.kept(seed)) or Walk.start(packing, rule, choices)
-        while not walk.done:
-            walk.advance()
+        while not walk.done and walk.advance():
             if keeper:
                 keeper.watch(seed, walk)
         return row_of(walk)
@@ -57,7 +56,7 @@ def shear_block(
 
 
 def row_of(walk: Walk) -> dict[str, object]:
-    """All that was recorded on the way."""
+    """All that was recorded on the way; not converged where it ended before the last strain."""
     packing = walk.now.balance.packing
     still = {name: getattr(packing, name) for name in ("diameter", "mass", "box_length")}
     return {
@@ -66,7 +65,7 @@ def row_of(walk: Walk) -> dict[str, object]:
         **_events(walk.events),
         **_changes(walk.changes),
         "jammed": True,
-        "converged": True,
+        "converged": walk.done,
     }
 
 

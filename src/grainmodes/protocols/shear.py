@@ -74,19 +74,22 @@ class Walk:
     def _last(self) -> int:
         return round(self.choices.strain / self.choices.smallest_step)
 
-    def advance(self) -> None:
-        """Try the next step: take it, or try a shorter one next time.
+    def advance(self) -> bool:
+        """Try the next step: take it, or try a shorter one next time; False if there is none.
 
-        Raises:
-            ArithmeticError: no balance was found.
+        A packing that has lost its rigidity has no stable balance, however short the step.
         """
         size = self._next_size()
-        after = self._stepped(size)
-        kind = kind_of(self.now, after)
-        if kind and size > 1:
+        try:
+            after = self._stepped(size)
+            kind = kind_of(self.now, after)
+        except ArithmeticError:
+            after, kind = None, 0
+        if size > 1 and (after is None or kind):
             self.size, self.until = largest_power_of_ten_below(size), self.now.units + size
-        else:
+        elif after is not None:
             self._take(after, kind)
+        return after is not None or size > 1
 
     def _next_size(self) -> int:
         grid = steps_per_grid(self.choices)

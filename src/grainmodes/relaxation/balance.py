@@ -79,6 +79,10 @@ class Balance:
         lost = max(lost, lost_force(packing, contacts, interaction))
         return cls(moved, contacts, ~loose, interaction, None, like, lost)
 
+    def __reduce__(self):
+        """Pickled as its packing: factors are made again, and are the same."""
+        return Balance.of, (self.packing, self.interaction)
+
     @cached_property
     def backbone(self) -> Packing:
         """The grains that carry load, with their springs."""
