@@ -33,7 +33,7 @@ def ensemble() -> xr.Dataset:
 
 def set_moduli(dataset: xr.Dataset, g: xr.DataArray) -> None:
     """Every modulus that equals g, so that no claim but those on g itself sees a change of g."""
-    g = (g * _noise(dataset, 0.05)).transpose(*POINT)
+    g = (g * noise(dataset, 0.05)).transpose(*POINT)
     dataset["g"], dataset["g_simulated"], dataset["g_translational"] = g, g * (1 + 1e-6), g.copy()
     steps = xr.DataArray(1.0 + np.array(STRAINS), dims="probe")
     dataset["g_forward_by_strain"] = g * steps
@@ -67,11 +67,12 @@ def _binned(frequency: np.ndarray, psi: np.ndarray, edges: np.ndarray):
         return count, total / count
 
 
-def _ones(dataset: xr.Dataset) -> xr.DataArray:
+def ones(dataset: xr.Dataset) -> xr.DataArray:
+    """1 for every sample."""
     return xr.DataArray(np.ones([dataset.sizes[name] for name in POINT]), dims=POINT)
 
 
-def _noise(dataset: xr.Dataset, size: float) -> xr.DataArray:
+def noise(dataset: xr.Dataset, size: float) -> xr.DataArray:
     """Factors about 1 that belong to a seed."""
     draws = np.random.default_rng(1).normal(1.0, size, SEEDS)
     return xr.DataArray(draws, dims="seed")
@@ -83,21 +84,21 @@ def _distance(dataset: xr.Dataset) -> xr.DataArray:
 
 def _samples(dataset: xr.Dataset) -> None:
     for name in ("converged", "jammed"):
-        dataset[name] = _ones(dataset)
-    dataset["phi_jamming"] = JAMMING * _ones(dataset)
-    dataset["contact_changes"] = 0 * _ones(dataset)
+        dataset[name] = ones(dataset)
+    dataset["phi_jamming"] = JAMMING * ones(dataset)
+    dataset["contact_changes"] = 0 * ones(dataset)
 
 
 def _moduli(dataset: xr.Dataset) -> None:
     """G ∝ φ - φ_c without friction, ∝ (φ - φ_c)^(1/2) with much of it."""
     distance, kt = _distance(dataset), dataset["kt"]
-    g = (distance + kt / (1 + kt) * 0.4 * distance**0.5) * _ones(dataset)
+    g = (distance + kt / (1 + kt) * 0.4 * distance**0.5) * ones(dataset)
     set_moduli(dataset, g)
     logarithm = np.log(np.maximum(kt, 1e-12) / 2.0)
-    nonaffine = distance * logarithm * _noise(dataset, 0.05)
-    dataset["g_nonaffine"] = (nonaffine * _ones(dataset)).transpose(*POINT)
-    loaded = -distance * (1 + kt) * _noise(dataset, 0.05)
-    dataset["g_nonaffine_loaded"] = (loaded * _ones(dataset)).transpose(*POINT)
+    nonaffine = distance * logarithm * noise(dataset, 0.05)
+    dataset["g_nonaffine"] = (nonaffine * ones(dataset)).transpose(*POINT)
+    loaded = -distance * (1 + kt) * noise(dataset, 0.05)
+    dataset["g_nonaffine_loaded"] = (loaded * ones(dataset)).transpose(*POINT)
 
 
 def _spectra(dataset: xr.Dataset) -> None:
@@ -158,9 +159,9 @@ def count_hessian(dataset: xr.Dataset) -> None:
 
 
 def _probes(dataset: xr.Dataset) -> None:
-    ones = _ones(dataset)
-    dataset["probe_strain"] = ones * xr.DataArray(np.array(STRAINS), dims="probe")
-    dataset["verlet_order_position"] = 2.0 * _noise(dataset, 0.01) * ones
-    dataset["verlet_order_velocity"] = 1.0 * _noise(dataset, 0.01) * ones
-    dataset["complex_pairs_frictional"] = 3.0 * ones
-    dataset["jammed_frictional"] = ones.copy()
+    one = ones(dataset)
+    dataset["probe_strain"] = one * xr.DataArray(np.array(STRAINS), dims="probe")
+    dataset["verlet_order_position"] = 2.0 * noise(dataset, 0.01) * one
+    dataset["verlet_order_velocity"] = 1.0 * noise(dataset, 0.01) * one
+    dataset["complex_pairs_frictional"] = 3.0 * one
+    dataset["jammed_frictional"] = one.copy()

@@ -5,7 +5,9 @@ rule claims:
     input:
         ensemble=rules.ensemble.output,
         code=sources(
-            "grainmodes.claims", "grainmodes.claims.report", "grainmodes.ensemble:open_ensemble"
+            "grainmodes.claims.paper_a",
+            "grainmodes.claims.report",
+            "grainmodes.ensemble:open_ensemble",
         ),
     output:
         page=f"{STUDY}/claims.md",

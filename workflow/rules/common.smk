@@ -8,7 +8,12 @@ from snakemake.exceptions import WorkflowError
 
 from grainmodes.configuration import ConfigurationError, scene_of
 from grainmodes.parameters.figures import FIGURES
-from grainmodes.parameters.grid import CHECKPOINT_SPACING, LOWEST_CHECKPOINT, checkpoint_at_or_below, format_value
+from grainmodes.parameters.grid import (
+    CHECKPOINT_SPACING,
+    LOWEST_CHECKPOINT,
+    checkpoint_at_or_below,
+    format_value,
+)
 from grainmodes.provenance import stage_sources
 
 # Snakemake would merge a scene of the command line into the default one, key by key.

@@ -63,6 +63,11 @@ class Samples:
         """Values of k_T/k_N in [low, high] with samples, at one φ or any; ascending."""
         return sorted({of for here, of in self.points(name, low, high) if phi in (None, here)})
 
+    def common_kappas(self, name: str, phis: tuple[float, float], low: float = 0.0) -> list[float]:
+        """Values of k_T/k_N from `low` on at which a variable has samples at both φ."""
+        first, last = (self.kappas(name, phi, low) for phi in phis)
+        return [kappa for kappa in first if kappa in last]
+
     def _rows(self, name: str) -> xr.Variable:
         # a Variable carries no coordinates to align, which would take most of the time
         return self.ensemble[name].variable.isel(n=self._place("n", self.n))

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from grainmodes.dataset.variable import Variable
 
+GRAINS = ("seed", "grain", "component")
+
 NAMES = {
-    "affine_field": Variable(
-        ("seed", "grain", "component"), "f8", "d", "affine displacement per unit strain, (x, y, l)"
-    ),
-    "nonaffine_field": Variable(
-        ("seed", "grain", "component"), "f8", "d", "non-affine displacement per unit strain"
-    ),
+    "affine_field": Variable(GRAINS, "f8", "d", "affine displacement per unit strain, (x, y, l)"),
+    "nonaffine_field": Variable(GRAINS, "f8", "d", "non-affine displacement per unit strain"),
     "nonaffine_field_mode_sum": Variable(
-        ("seed", "grain", "component"), "f8", "d", "nonaffine_field as a sum over the modes"
+        GRAINS, "f8", "d", "nonaffine_field as a sum over the modes"
     ),
     "nonaffine_field_simulated": Variable(
-        ("seed", "grain", "component"), "f8", "d", "nonaffine_field from relaxed step strains"
+        GRAINS, "f8", "d", "nonaffine_field from relaxed step strains"
     ),
     "frequency_asked": Variable(
         ("seed", "frequency"), "f8", "1/t_0", "frequency near which an eigenvector is sought"

@@ -2,29 +2,29 @@
 
 from __future__ import annotations
 
-from grainmodes.dataset.variable import BLOCK, MODULUS, Variable
+from grainmodes.dataset.variable import BINS, BLOCK, MODES, MODULUS, Variable
 
 NAMES = {
     # spectrum
     "eigenvalue": Variable(
-        ("seed", "mode"), "f8", "k_N d^(1/2)", "eigenvalue of the Jacobian, ascending; NaN: no mode"
+        MODES, "f8", MODULUS, "eigenvalue of the Jacobian, ascending; NaN: no mode"
     ),
     "eigenvalue_imaginary": Variable(
-        ("seed", "mode"), "f8", "k_N d^(1/2)", "imaginary part, where the Jacobian is not symmetric"
+        MODES, "f8", MODULUS, "imaginary part, where the Jacobian is not symmetric"
     ),
-    "psi_rotational": Variable(("seed", "mode"), "f8", "1", "rotational fraction psi^R of a mode"),
-    "participation_ratio": Variable(("seed", "mode"), "f8", "1", "participation ratio p of a mode"),
+    "psi_rotational": Variable(MODES, "f8", "1", "rotational fraction psi^R of a mode"),
+    "participation_ratio": Variable(MODES, "f8", "1", "participation ratio p of a mode"),
     "eigenvalue_rattlers": Variable(
-        ("seed", "mode"), "f8", MODULUS, "eigenvalue of the Jacobian with the rattlers in it"
+        MODES, "f8", MODULUS, "eigenvalue of the Jacobian with the rattlers in it"
     ),
     "psi_rotational_rattlers": Variable(
-        ("seed", "mode"), "f8", "1", "psi^R of a mode of the Jacobian with the rattlers in it"
+        MODES, "f8", "1", "psi^R of a mode of the Jacobian with the rattlers in it"
     ),
     "participation_ratio_rattlers": Variable(
-        ("seed", "mode"), "f8", "1", "p of a mode of the Jacobian with the rattlers in it"
+        MODES, "f8", "1", "p of a mode of the Jacobian with the rattlers in it"
     ),
     "mode_count_rattlers": Variable(BLOCK, "i8", "1", "number of modes with the rattlers in"),
-    "residual": Variable(BLOCK, "f8", "k_N d^(1/2)", "largest eigenpair residual |J v - lambda v|"),
+    "residual": Variable(BLOCK, "f8", MODULUS, "largest eigenpair residual |J v - lambda v|"),
     "g_mode_sum": Variable(BLOCK, "f8", MODULUS, "g as a sum over the modes"),
     "spectrum_method": Variable(
         BLOCK,
@@ -37,23 +37,23 @@ NAMES = {
     ),
     # spectrum in bins
     "bin_edge": Variable(("seed", "edge"), "f8", "1/t_0", "edge of a bin of frequency"),
-    "bin_count": Variable(("seed", "bin"), "i8", "1", "number of modes in a bin"),
+    "bin_count": Variable(BINS, "i8", "1", "number of modes in a bin"),
     "modes_below": Variable(
         BLOCK, "i8", "1", "number of modes below the first bin, zero modes too"
     ),
-    "bin_psi_rotational": Variable(("seed", "bin"), "f8", "1", "mean psi^R in a bin"),
+    "bin_psi_rotational": Variable(BINS, "f8", "1", "mean psi^R in a bin"),
     "bin_psi_rotational_error": Variable(
-        ("seed", "bin"), "f8", "1", "standard error of the mean psi^R in a bin"
+        BINS, "f8", "1", "standard error of the mean psi^R in a bin"
     ),
-    "bin_participation_ratio": Variable(("seed", "bin"), "f8", "1", "mean p in a bin"),
+    "bin_participation_ratio": Variable(BINS, "f8", "1", "mean p in a bin"),
     "bin_participation_ratio_error": Variable(
-        ("seed", "bin"), "f8", "1", "standard error of the mean p in a bin"
+        BINS, "f8", "1", "standard error of the mean p in a bin"
     ),
     "bin_count_hessian": Variable(
-        ("seed", "bin"), "i8", "1", "modes of the effective Hessian, tangent stiffnesses, in a bin"
+        BINS, "i8", "1", "modes of the effective Hessian, tangent stiffnesses, in a bin"
     ),
     "bin_count_hessian_printed": Variable(
-        ("seed", "bin"), "i8", "1", "modes of the effective Hessian as printed in (H2), in a bin"
+        BINS, "i8", "1", "modes of the effective Hessian as printed in (H2), in a bin"
     ),
     "mode_count": Variable(BLOCK, "i8", "1", "number of modes: degrees of freedom of the backbone"),
 }

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 BLOCK = ("seed",)
+MODES = ("seed", "mode")
 BINS = ("seed", "bin")
 FORCE = "k_N d^(3/2)"
 MODULUS = "k_N d^(1/2)"

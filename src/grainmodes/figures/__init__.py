@@ -1,6 +1,6 @@
 """Figures: each a picture, the same picture as vectors, and the plotted numbers.
 
-A figure is a module of this package of the name in `parameters.FIGURES`, with
+A figure is a module of this package of the name in `parameters.figures.FIGURES`, with
 
     COLUMNS                      column → (unit, meaning), in the order of the CSV file
     table(source, options)       the plotted numbers, a pure function
@@ -38,7 +38,7 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
     """Write `out_stem`.png, .pdf and .csv: all three or none.
 
     Args:
-        name: a key of `parameters.FIGURES`.
+        name: a key of `parameters.figures.FIGURES`.
         data: file of `write_ensemble`; a list of files of `grainmodes fields`, where the figure's
             source are fields.
         out_stem: path without suffix.

@@ -10,7 +10,6 @@ import pandas as pd
 
 from grainmodes.dataset.files import Block, BlockError, read_block
 from grainmodes.figures.selection import Options, largest_or
-from grainmodes.rows import attribute
 
 GRAINS = {
     "n": ("1", "number of grains N"),
@@ -26,7 +25,6 @@ GRAINS = {
 }
 """Columns that say which grain a row is about."""
 
-STEP = {"strain_step": ("1", "size of the simulated step strain, taken to both sides")}
 COMPONENTS = ("x", "y", "rotation")
 """Names of the components (x, y, ℓ), ℓ = d θ / 2."""
 
@@ -117,11 +115,3 @@ def joined(parts: Iterable[pd.DataFrame], columns: Iterable[str]) -> pd.DataFram
     """The rows of several samples below each other, with these columns in this order."""
     parts, columns = list(parts), list(columns)
     return pd.concat(parts, ignore_index=True)[columns] if parts else pd.DataFrame(columns=columns)
-
-
-def displacements(block: Block, variables: dict[str, str]) -> pd.DataFrame:
-    """Rows of the displacement fields of a sample: prefix of the columns → variable."""
-    found = grains(block).assign(strain_step=attribute(block, "config")["step_strain"]["strain"])
-    for prefix, name in variables.items():
-        found = found.assign(**components(prefix, block.variables[name][0]))
-    return found

@@ -11,19 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
-from grainmodes.figures import appearance
-from grainmodes.figures.field_rows import (
-    COMPONENTS,
-    GRAINS,
-    STEP,
-    at_kt,
-    at_point,
-    described,
-    displacements,
-    jammed,
-    joined,
-)
-from grainmodes.figures.grain_maps import Scale, add_colour_bar, add_key, draw_map, write_caption
+from grainmodes.figures import appearance, step_strain_maps
+from grainmodes.figures.field_rows import COMPONENTS, at_point, described, jammed
+from grainmodes.figures.grain_maps import Scale
 from grainmodes.figures.selection import Options
 
 PAPER_N = 1024
@@ -31,8 +21,7 @@ VARIABLES = {"theory": "nonaffine_field_mode_sum", "simulation": "nonaffine_fiel
 TITLES = {"theory": "sum over the modes", "simulation": "simulation"}
 
 COLUMNS = {
-    **GRAINS,
-    **STEP,
+    **step_strain_maps.COLUMNS,
     **described("theory", "d", "non-affine displacement per unit strain from the modes"),
     **described("simulation", "d", "the same from the relaxed step strains; empty: a rattler"),
 }
@@ -45,31 +34,20 @@ def table(fields: list[Block], options: Options) -> pd.DataFrame:
         BlockError: samples are jammed, but none has a field from the modes.
         ValueError: no sample has the n, phi or kt asked for.
     """
-    samples = jammed(fields, "nonaffine_field", VARIABLES["theory"])
-    shown = at_kt(at_point(samples, options, PAPER_N), options)
-    return joined((displacements(block, VARIABLES) for block in shown), COLUMNS)
+    samples = at_point(jammed(fields, "nonaffine_field", VARIABLES["theory"]), options, PAPER_N)
+    return step_strain_maps.rows(samples, options, VARIABLES, COLUMNS)
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
     """(a), (b): maps on one scale; (c): every component; below it, what the two differ by."""
     figure.set_size_inches(7.0, 6.4)
     maps, lines = figure.subfigures(2, 1, height_ratios=(3.6, 2.8))
-    _maps(maps, table)
+    scale = Scale.of(table, tuple(VARIABLES), arrow=1.3)
+    step_strain_maps.draw_pair(maps, table, TITLES, dict.fromkeys(VARIABLES, scale))
     above, below = lines.subplots(2, 1, sharex=True, height_ratios=(3, 1.4))
     _components(above, below, *(_in_order(table, prefix) for prefix in VARIABLES))
     lines.align_ylabels()
     appearance.name_panel(above, 2, "component by component")
-    write_caption(maps, table, "arrows: displacement per unit strain")
-
-
-def _maps(figure: Figure, table: pd.DataFrame) -> None:
-    panels = figure.subplots(1, 2, sharey=True)
-    scale = Scale.of(table, tuple(VARIABLES), arrow=1.3)
-    for index, (axes, prefix) in enumerate(zip(panels, VARIABLES, strict=True)):
-        add_key(axes, draw_map(axes, table, prefix, scale), scale, "$\\,d$")
-        appearance.name_panel(axes, index, TITLES[prefix])
-        axes.label_outer()
-    add_colour_bar(figure, list(panels), scale, r"$d\mathring{\ell}/d\gamma$  $(d)$")
 
 
 def _in_order(table: pd.DataFrame, prefix: str) -> np.ndarray:

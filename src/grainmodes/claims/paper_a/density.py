@@ -23,10 +23,8 @@ from grainmodes.claims.bands import (
 )
 from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
 from grainmodes.claims.estimates import Estimate, mean
+from grainmodes.claims.paper_a.words import WEAK
 from grainmodes.claims.samples import TINY, Samples, at, richest, sizes
-
-LIMIT = 1e-8
-"""k_T/k_N of A's Figs. 15 and 16, and of the first rattlers of Fig. 14."""
 
 LOCALISED = 2.0
 """N p below which a mode sits on one grain."""
@@ -44,7 +42,7 @@ def localised_rattlers(ensemble) -> Outcome:
     names = ("eigenvalue_rattlers", "participation_ratio_rattlers", "mode_count_rattlers")
     samples = richest(ensemble, *names, "mode_count")
     parts, zero, added = [], 0.0, 0.0
-    for kappa in samples.kappas(names[0], low=LIMIT, high=1e-4):
+    for kappa in samples.kappas(names[0], low=WEAK, high=1e-4):
         near, vanishing, of_rattlers = np.nansum(
             [_rattler_modes(samples, phi, kappa) for phi in samples.phis(names[0], kappa)], axis=0
         )
@@ -82,7 +80,7 @@ def independent_of_size(ensemble) -> Outcome:
     common = set.intersection(*(set(s.points(SEPARABLE, TINY)) for s in (of_n[0], of_n[-1])))
     if len(of_n) < 2 or not common:
         raise NotAsked("spectra of two N at one φ and k_T")
-    point = max(common, key=lambda point: (point[0], -abs(np.log(point[1] / LIMIT))))
+    point = max(common, key=lambda point: (point[0], -abs(np.log(point[1] / WEAK))))
     small, large = (modes(samples, *point) for samples in (of_n[0], of_n[-1]))
     parts = [
         Part(f"{band} ω at share {share:.1f}, {at(*point)}", difference, -0.05, 0.05)

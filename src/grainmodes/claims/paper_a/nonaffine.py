@@ -1,0 +1,86 @@
+"""The claim of paper A on the non-affine rigidity and the sign of it: A6.
+
+    symbol        name                   paper A
+    G_NA          g_nonaffine            Eq. 41, unloaded step
+    g_NA          g_nonaffine_loaded     the same with the tangential springs loaded
+    kappa         kt = k_T/k_N
+
+Every comparison is paired: at all k_T the packings of one seed are the same.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes.claims.claim import Outcome, Part, claim, every, text
+from grainmodes.claims.estimates import Estimate, crossing, mean, relative_difference
+from grainmodes.claims.samples import TINY, Samples, at, richest
+
+CROSSING = (1.6, 2.5)
+"""Range of k_T/k_N that is 2 on A's grid, whose neighbours of 2 are 1 and 5."""
+
+
+@claim("A6", unit="1")
+def nonaffine_sign_change(ensemble) -> Outcome:
+    """G_NA is negative for k_T/k_N < 2 and positive above; |G_NA| grows with φ (Fig. 6).
+
+    k_T/k_N at which the mean of g_nonaffine (unloaded step) rises through 0, at every φ, linear
+    in log k_T between points of the grid, its error the jackknife over seeds; and the
+    relative difference of |G_NA| at the highest and the lowest φ, at the smallest and the largest
+    k_T, paired by seed.
+
+    Criterion: the crossing lies within 1.6 ... 2.5 at every φ, and |G_NA| is larger at the
+    highest φ.
+    """
+    samples = richest(ensemble, "g_nonaffine", "g_nonaffine_loaded")
+    phis = samples.phis("g_nonaffine")
+    zeros = {phi: _zero(samples, phi) for phi in phis if _ends_around_two(samples, phi)}
+    parts = {
+        "k_T/k_N on both sides of 2": [
+            Part(f"crossing at {at(phi)}", zero, *CROSSING) for phi, zero in zeros.items()
+        ],
+        "two area fractions": [
+            _growth(samples, kappa, phis) for kappa in _ends(samples, phis) if len(phis) > 1
+        ],
+    }
+    return Outcome(every(parts), f"{_crossings(zeros)} {_loading(samples)}")
+
+
+def _ends(samples: Samples, phis: list[float]) -> list[float]:
+    """The smallest and the largest k_T with samples at the lowest and at the highest φ."""
+    kappas = samples.common_kappas("g_nonaffine", (phis[0], phis[-1]))
+    return [kappas[0], kappas[-1]] if kappas else []
+
+
+def _ends_around_two(samples: Samples, phi: float) -> bool:
+    kappas = samples.kappas("g_nonaffine", phi, TINY)
+    return bool(kappas) and kappas[0] < CROSSING[0] and kappas[-1] > CROSSING[1]
+
+
+def _zero(samples: Samples, phi: float) -> Estimate:
+    kappas = samples.kappas("g_nonaffine", phi, TINY)
+    rows = np.array([samples.of("g_nonaffine", phi, kappa) for kappa in kappas])
+    return crossing(np.array(kappas), rows.T)
+
+
+def _growth(samples: Samples, kappa: float, phis: list[float]) -> Part:
+    low, high = (np.abs(samples.of("g_nonaffine", phi, kappa)) for phi in (phis[0], phis[-1]))
+    return Part(f"growth at {at(kappa=kappa)}", relative_difference(high, low), 0.0)
+
+
+def _crossings(zeros: dict[float, Estimate]) -> str:
+    listed = ", ".join(f"{text(zero)} at {at(phi)}" for phi, zero in zeros.items())
+    return f"The unloaded G_NA crosses 0 at κ = {listed}."
+
+
+def _loading(samples: Samples) -> str:
+    """What becomes of the sign once the step loads the tangential springs."""
+    points = samples.points("g_nonaffine_loaded", TINY)
+    loaded = np.array([samples.of("g_nonaffine_loaded", *point) for point in points])
+    (phi, kappa), last = points[-1], samples.of("g_nonaffine", *points[-1])
+    return (
+        "The sign belongs to the step, which does not load the tangential springs: with springs "
+        "loaded g_NA = -aᵀJ⁺a/L² ≤ 0, positive in "
+        f"{int((loaded > 0).sum())} of {int(np.isfinite(loaded).sum())} samples, and G_NA at "
+        f"{at(phi, kappa)} is {text(mean(loaded[-1]))} loaded, {text(mean(last))} unloaded."
+    )

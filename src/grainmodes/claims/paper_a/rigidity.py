@@ -1,0 +1,146 @@
+"""Claims of paper A on G(φ, k_T/k_N): A2 to A5.
+
+    symbol        name                   paper A
+    G             g                      Eq. 17, theory (Eqs. 39-46)
+    phi_c         phi_jamming            of the frictionless packing
+    kappa         kt = k_T/k_N
+
+Every comparison is paired: at all k_T the packings of one seed are the same. An average here runs
+over jammed samples.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
+from grainmodes.claims.estimates import Estimate, mean, relative_difference
+from grainmodes.claims.paper_a.words import LARGE, SAME, SMALL
+from grainmodes.claims.samples import TINY, Samples, at, richest
+
+LIMIT = 0.001
+"""Relative difference to the frictionless G that counts as its limit."""
+
+FEWEST_PHI = 3
+"""Area fractions without which an exponent has no meaning."""
+
+
+@claim("A2", unit="1")
+def not_proportional_to_distance(ensemble) -> Outcome:
+    """G is not proportional to φ - φ_c at large k_T/k_N (Sec. IV A).
+
+    Exponent β of G ∝ (φ - φ_c)^β, the slope of log G for each seed with its own φ_c; measured
+    is β - 1.
+
+    Criterion: |β - 1| > 0.1 at every k_T/k_N ≥ 1.
+    """
+    samples = richest(ensemble, "g", "phi_jamming")
+    enough = [k for k in samples.kappas("g") if len(samples.phis("g", k)) >= FEWEST_PHI]
+    if not enough:
+        raise NotAsked(f"{FEWEST_PHI} area fractions with jammed samples")
+    exponents = {kappa: _exponent(samples, kappa) for kappa in enough}
+    parts = [
+        Part(at(kappa=kappa), Estimate(abs(beta.value - 1.0), beta.error), 0.1)
+        for kappa, beta in exponents.items()
+        if kappa >= LARGE
+    ]
+    listed = ", ".join(f"{text(beta)} at κ = {kappa:g}" for kappa, beta in exponents.items())
+    return Outcome(parts, f"β is {listed}.")
+
+
+def _exponent(samples: Samples, kappa: float) -> Estimate:
+    """Mean over seeds of d log G / d log(φ - φ_c), from at least three φ of a seed."""
+    phis = samples.phis("g", kappa)
+    distance = np.array([phi - samples.of("phi_jamming", phi, kappa) for phi in phis])
+    moduli = np.array([samples.of("g", phi, kappa) for phi in phis])
+    with np.errstate(invalid="ignore", divide="ignore"):
+        x, y = np.log(distance), np.log(moduli)
+    return mean(np.array([_slope(*column) for column in zip(x.T, y.T, strict=True)]))
+
+
+def _slope(x: np.ndarray, y: np.ndarray) -> float:
+    known = np.isfinite(x) & np.isfinite(y)
+    return np.polyfit(x[known], y[known], 1)[0] if known.sum() >= FEWEST_PHI else np.nan
+
+
+@claim("A3", unit="1")
+def flat_at_small_stiffness(ensemble) -> Outcome:
+    """G hardly depends on k_T/k_N for k_T/k_N ≤ 1e-4 (Fig. 5).
+
+    Relative difference of G to that at the smallest k_T > 0, paired by seed, at every φ.
+
+    Criterion: |difference| < 1 %.
+    """
+    samples = richest(ensemble, "g")
+    parts, errors = [], {}
+    for phi in samples.phis("g"):
+        lowest, *others = samples.kappas("g", phi, TINY, SMALL) or [None]
+        reference = samples.of("g", phi, lowest) if others else None
+        for kappa in others:
+            difference = relative_difference(samples.of("g", phi, kappa), reference)
+            parts.append(Part(at(phi, kappa), difference, -SAME, SAME))
+        if others:
+            errors[phi] = mean(reference).error / np.nanmean(reference)
+    listed = ", ".join(f"{error:.2g} at {at(phi)}" for phi, error in errors.items())
+    return Outcome(parts, f"For comparison, the relative standard error of G itself: {listed}.")
+
+
+@claim("A4", unit="1")
+def frictionless_limit(ensemble) -> Outcome:
+    """G goes to its frictionless value as k_T → 0, without a jump (Sec. IV A).
+
+    Relative difference of G at the smallest k_T > 0 and at k_T = 0, paired by seed, at every φ.
+
+    Criterion: |difference| < 0.1 % at a k_T/k_N ≤ 1e-6.
+    """
+    samples = richest(ensemble, "g")
+    with_limit = [phi for phi in samples.phis("g", 0.0) if samples.kappas("g", phi, TINY, 1e-6)]
+    if not with_limit:
+        raise NotAsked("k_T = 0 and a k_T/k_N ≤ 1e-6")
+    parts = [
+        Part(at(phi, kappa), _to_frictionless(samples, phi, kappa), -LIMIT, LIMIT)
+        for phi in with_limit
+        for kappa in samples.kappas("g", phi, TINY, 1e-6)[:1]
+    ]
+    phi = with_limit[-1]
+    approach = {k: _to_frictionless(samples, phi, k) for k in samples.kappas("g", phi, TINY, 1.0)}
+    listed = ", ".join(f"{text(value)} at κ = {kappa:g}" for kappa, value in approach.items())
+    return Outcome(parts, f"The difference at {at(phi)} is {listed}.")
+
+
+def _to_frictionless(samples: Samples, phi: float, kappa: float) -> Estimate:
+    return relative_difference(samples.of("g", phi, kappa), samples.of("g", phi, 0.0))
+
+
+@claim("A5", unit="1")
+def no_factorisation(ensemble) -> Outcome:
+    """G(φ, k_T/k_N) is no product G_0(φ) 𝒢(k_T/k_N) at large k_T/k_N (Sec. IV A, footnote 2).
+
+    log of G(κ)/G(0) at the lowest φ minus that at the highest φ, paired by seed; a product gives 0.
+    A seed with G ≤ 0, as small systems have, has no logarithm and is left out.
+
+    Criterion: |difference| > 0.05 at every k_T/k_N ≥ 1.
+    """
+    samples = richest(ensemble, "g")
+    phis = samples.phis("g", 0.0)
+    if len(phis) < 2:
+        raise NotAsked("k_T = 0 at two area fractions with jammed samples")
+    parts, ends = [], (phis[0], phis[-1])
+    for kappa in samples.common_kappas("g", ends, LARGE):
+        low, high = (_log_gain(samples, phi, kappa) for phi in ends)
+        change = mean(low - high)
+        parts.append(Part(at(kappa=kappa), Estimate(abs(change.value), change.error), 0.05))
+    return Outcome(parts, _gains(samples, ends))
+
+
+def _log_gain(samples: Samples, phi: float, kappa: float) -> np.ndarray:
+    with np.errstate(invalid="ignore"):
+        return np.log(samples.of("g", phi, kappa) / samples.of("g", phi, 0.0))
+
+
+def _gains(samples: Samples, phis: tuple[float, float]) -> str:
+    """G(κ)/G(0) at the largest κ, at two area fractions."""
+    kappa = samples.kappas("g", phis[-1])[-1]
+    gains = {phi: _to_frictionless(samples, phi, kappa) for phi in phis}
+    listed = (f"{text(Estimate(g.value + 1, g.error))} at {at(phi)}" for phi, g in gains.items())
+    return f"G(κ = {kappa:g}) / G(0) is {' and '.join(listed)}."

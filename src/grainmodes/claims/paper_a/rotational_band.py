@@ -1,0 +1,121 @@
+"""Claims of paper A on the shape of the rotational band: A9 and A10.
+
+    symbol    name                                          paper A
+    omega     frequency = eigenvalue^(1/2)                  Sec. III A
+    psi^R     psi_rotational; rotational: psi^R > 1/2       Eq. 50
+    omega_R   (k_T/k_N)^(1/2) / t_0                         Sec. IV B
+    kappa     kt = k_T/k_N
+
+Positions are measured in each sample, and their means and errors are those over the samples.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes import statistics
+from grainmodes.claims.bands import Modes, per_sample
+from grainmodes.claims.claim import Outcome, Part, claim, every, text
+from grainmodes.claims.estimates import Estimate, jackknife, mean, relative_difference
+from grainmodes.claims.paper_a.spectra import REGION, spectra_of, within
+from grainmodes.claims.samples import TINY, at
+
+SCALING = 0.01
+"""Largest k_T/k_N for which A finds omega_R D to collapse."""
+
+WINDOW = np.linspace(0.1, 1.0, 10)
+"""Edges in omega / omega_R of the bins in which curves are compared (A, Fig. 10)."""
+
+SMOOTHING = 0.1
+"""Width in omega / omega_R of the Gaussian that smooths D before its peak is sought."""
+
+
+@claim("A9", unit="1")
+def peak_and_collapse(ensemble) -> Outcome:
+    """D peaks at ω ≃ ω_R; ω_R D collapses in 0.1 < ω/ω_R < 1 for k_T/k_N ≤ 0.01 (Fig. 10).
+
+    Peak: maximum over 0.1 < ω/ω_R < 2 of D of a sample, smoothed by 0.1. Collapse: area between
+    ω_R D and that of the smallest k_T, over the area below the latter, in nine bins.
+
+    Criterion: the peak lies at ω/ω_R = 0.5 ... 2, and the area between two curves is below 0.1.
+    """
+    _, phi, spectra = spectra_of(ensemble)
+    scaled = {k: of.frequency / np.sqrt(k) for k, of in within(spectra, TINY, SCALING).items()}
+    peaks = {kappa: mean(_peak(x)) for kappa, x in scaled.items()}
+    counts = {kappa: _counts(x) for kappa, x in scaled.items()}
+    parts = {
+        "k_T/k_N ≤ 0.01": [
+            Part(f"peak at {at(phi, k)}", peak, 0.5, 2.0) for k, peak in peaks.items()
+        ],
+        "two k_T/k_N ≤ 0.01": [
+            Part(f"area at {at(phi, k)}", _area_between(counts[k], counts[min(counts)]), high=0.1)
+            for k in sorted(counts)[1:]
+        ],
+    }
+    return Outcome(every(parts), _peaks_and_chi_squared(peaks, counts))
+
+
+def _peak(scaled: np.ndarray) -> np.ndarray:
+    """omega / omega_R of the maximum of D of each sample, (S,)."""
+    grid = np.linspace(0.1, 2.0, 191)
+
+    def highest(row: np.ndarray) -> float:
+        return grid[np.exp(-(((grid[:, None] - row) / SMOOTHING) ** 2) / 2).sum(axis=1).argmax()]
+
+    return per_sample(highest, np.where(scaled < 2 * REGION, scaled, np.nan))
+
+
+def _counts(scaled: np.ndarray) -> np.ndarray:
+    """Modes of each sample in the bins of `WINDOW`, (S, B)."""
+    return per_sample(lambda row: np.histogram(row, WINDOW)[0].astype(float), scaled)
+
+
+def _area_between(counts: np.ndarray, reference: np.ndarray) -> Estimate:
+    def area(a: np.ndarray, b: np.ndarray) -> float:
+        return np.abs(a.mean(axis=0) - b.mean(axis=0)).sum() / b.mean(axis=0).sum()
+
+    return jackknife(area, counts, reference)
+
+
+def _peaks_and_chi_squared(peaks: dict[float, Estimate], counts: dict[float, np.ndarray]) -> str:
+    first, *others = counts
+    chi = (f"{_chi_squared(counts[k], counts[first]):.2g} at κ = {k:g}" for k in others)
+    listed = ", ".join(f"{text(peak)} at κ = {kappa:g}" for kappa, peak in peaks.items())
+    return (
+        f"The peak lies at ω/ω_R = {listed}. χ² per bin of two curves, their errors taken as "
+        f"independent: {', '.join(chi)}."
+    )
+
+
+def _chi_squared(counts: np.ndarray, reference: np.ndarray) -> float:
+    pair = [statistics.average(rows.T, np.isfinite(rows.T)) for rows in (counts, reference)]
+    variance = sum(of.standard_error**2 for of in pair)
+    filled = variance > 0
+    return np.mean((pair[0].mean - pair[1].mean)[filled] ** 2 / variance[filled])
+
+
+@claim("A10", unit="1")
+def area_of_rotational_band(ensemble) -> Outcome:
+    """The integral of D over Region I does not depend on k_T/k_N (footnote 3).
+
+    Number of rotational modes (ψ^R > 1/2) relative to that at the smallest k_T, paired by seed,
+    for k_T/k_N ≤ 0.01, where A scales D.
+
+    Criterion: |relative difference| < 5 %.
+    """
+    samples, phi, spectra = spectra_of(ensemble)
+    areas = {kappa: _rotational_count(of) for kappa, of in spectra.items()}
+    scaled = sorted(within(areas, TINY, SCALING))
+    parts = [
+        Part(at(phi, kappa), relative_difference(areas[kappa], areas[scaled[0]]), -0.05, 0.05)
+        for kappa in scaled[1:]
+    ]
+    shares = ", ".join(
+        f"{text(mean(area / (3 * samples.n)))} at κ = {k:g}" for k, area in areas.items()
+    )
+    return Outcome(parts, f"∫ D dω over the rotational modes is {shares}.")
+
+
+def _rotational_count(of: Modes) -> np.ndarray:
+    count = np.isfinite(of.rotational).sum(axis=1)
+    return np.where(np.isfinite(of.frequency).any(axis=1), count, np.nan)

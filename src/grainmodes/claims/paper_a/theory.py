@@ -1,0 +1,90 @@
+"""Claims of paper A on two ways to one modulus: A1, A16 and A17.
+
+    symbol        name                   paper A
+    G             g                      Eq. 17, theory (Eqs. 39-46)
+    G, simulated  g_simulated            Eq. 16
+                  g_forward_by_strain    Eq. 16, one forward step of each size
+                  g_translational        the mode sum over psi^T > 1/2 alone
+    kappa         kt = k_T/k_N
+
+Both come from the same packings, seed by seed; an average here runs over jammed samples.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes.claims.claim import Outcome, Part, claim, text
+from grainmodes.claims.estimates import Estimate, relative_difference
+from grainmodes.claims.paper_a.words import SAME, SMALL
+from grainmodes.claims.samples import TINY, Samples, at, richest
+
+
+@claim("A1", unit="1")
+def theory_is_simulation(ensemble) -> Outcome:
+    """The rigidity G of the theory is that of the simulation at all φ and k_T/k_N (Fig. 4).
+
+    Relative difference of g_simulated and g, paired by seed, at every point.
+
+    Criterion: |G_simulated - G| < 1 % of G.
+    """
+    samples = richest(ensemble, "g", "g_simulated")
+    parts = [
+        Part(at(*point), _relative(samples, "g_simulated", "g", *point), -SAME, SAME)
+        for point in samples.points("g_simulated")
+    ]
+    return Outcome(parts, _contact_changes(samples))
+
+
+def _relative(samples: Samples, name: str, reference: str, phi: float, kappa: float) -> Estimate:
+    of = (samples.of(variable, phi, kappa) for variable in (name, reference))
+    return relative_difference(*of)
+
+
+def _contact_changes(samples: Samples) -> str:
+    if "contact_changes" not in samples.ensemble:
+        return ""
+    counts = [samples.of("contact_changes", *p) for p in samples.points("contact_changes")]
+    changed = sum(int((count > 0).sum()) for count in counts)
+    total = sum(int(np.isfinite(count).sum()) for count in counts)
+    return f"The step strain opened or closed contacts in {changed} of {total} samples."
+
+
+@claim("A16", unit="1")
+def independent_of_strain(ensemble) -> Outcome:
+    """The simulated G does not depend on the step strain in 1e-6 ... 1e-4 (Sec. II).
+
+    Relative difference of G from forward steps to that of the smallest step, paired by seed, at
+    every point.
+
+    Criterion: |difference| < 1 %.
+    """
+    samples = richest(ensemble, "g_forward_by_strain", "probe_strain")
+    parts = []
+    for point in samples.points("g_forward_by_strain"):
+        moduli = samples.of("g_forward_by_strain", *point).T
+        steps = np.nanmean(samples.of("probe_strain", *point), axis=0)
+        for step, of in zip(steps[1:], moduli[1:], strict=True):
+            difference = relative_difference(of, moduli[0])
+            parts.append(Part(f"Δγ = {step:g}, {at(*point)}", difference, -SAME, SAME))
+    return Outcome(parts)
+
+
+@claim("A17", unit="1")
+def translational_modes_suffice(ensemble) -> Outcome:
+    """The translational modes alone give G at small k_T/k_N (abstract).
+
+    Relative difference of the sum over modes with ψ^T > 1/2 and of g, paired by seed, at every
+    point with k_T/k_N ≤ 1e-4.
+
+    Criterion: |difference| < 1 %.
+    """
+    samples = richest(ensemble, "g_translational", "g")
+    parts = [
+        Part(at(*point), _relative(samples, "g_translational", "g", *point), -SAME, SAME)
+        for point in samples.points("g_translational", TINY, SMALL)
+    ]
+    above = samples.points("g_translational", 2.0 * SMALL)
+    differences = {p: _relative(samples, "g_translational", "g", *p) for p in above}
+    listed = ", ".join(f"{text(value)} at {at(*point)}" for point, value in differences.items())
+    return Outcome(parts, f"Above, the difference is {listed}." if listed else "")

@@ -1,0 +1,136 @@
+"""Claims of paper A on the two bands, their modes and the gap between them: A7, A8 and A11.
+
+    symbol    name                                          paper A
+    omega     frequency = eigenvalue^(1/2)                  Sec. III A
+    psi^R     psi_rotational; rotational: psi^R > 1/2       Eq. 50
+    omega_R   (k_T/k_N)^(1/2) / t_0                         Sec. IV B
+    kappa     kt = k_T/k_N
+    Region I  rotational band, omega < 2 omega_R (the upper end of A's window of bins)
+    Region II translational band, omega > 2 omega_R
+
+Positions are measured in each sample, and their means and errors are those over the samples.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes.claims.bands import (
+    SEPARABLE,
+    Modes,
+    frictionless,
+    mean_in,
+    modes,
+    per_sample,
+    separable,
+)
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, every
+from grainmodes.claims.estimates import Estimate, mean
+from grainmodes.claims.paper_a.spectra import REGION, spectra_of, within
+from grainmodes.claims.paper_a.words import WEAK
+from grainmodes.claims.samples import TINY, at, richest
+
+PURE = 0.9
+"""psi above which a region counts as purely rotational or translational."""
+
+SEPARATE, OVERLAP, MERGED = (1e-10, 1e-8), (1e-6, 1e-2), (1.0, np.inf)
+"""k_T/k_N of A's three kinds of spectrum (Sec. IV B)."""
+
+
+@claim("A7", unit="1")
+def pure_regions(ensemble) -> Outcome:
+    """Modes of Region I are rotational for k_T/k_N ≤ 1e-4, of Region II translational below 1.
+
+    Mean of ψ^R over the modes with ω < 2 ω_R, and of ψ^T over those with ω > 2 ω_R.
+
+    Criterion: each mean is above 0.9.
+    """
+    _, phi, spectra = spectra_of(ensemble)
+    parts = [
+        Part(f"ψ^R in I at {at(phi, kappa)}", _purity(of, kappa, rotational=True), PURE)
+        for kappa, of in within(spectra, TINY, 1e-4).items()
+    ]
+    parts += [
+        Part(f"ψ^T in II at {at(phi, kappa)}", _purity(of, kappa, rotational=False), PURE)
+        for kappa, of in within(spectra, TINY, 0.5).items()
+    ]
+    return Outcome(parts)
+
+
+def _purity(of: Modes, kappa: float, rotational: bool) -> Estimate:
+    region = REGION * np.sqrt(kappa)
+    if rotational:
+        return mean_in(of.psi_rotational, of.frequency < region)
+    return mean_in(1.0 - of.psi_rotational, of.frequency > region)
+
+
+@claim("A8", unit="1")
+def gap_overlap_merger(ensemble) -> Outcome:
+    """The bands are separate for k_T/k_N in 1e-10 ... 1e-8, overlap in 1e-6 ... 1e-2, merge from 1.
+
+    log10 of the lowest translational ω over the highest rotational ω of a sample: the gap in
+    decades, negative where the bands overlap; from k_T/k_N = 1 on the share of rotational modes
+    above the lowest translational one.
+
+    Criterion: gap > 0 up to 1e-8, gap < 0 in 1e-6 ... 1e-2, share > 0.9 from 1 on.
+    """
+    samples, phi, spectra = spectra_of(ensemble)
+    gaps = {kappa: _gap(of) for kappa, of in spectra.items()}
+    parts = {
+        "k_T/k_N in 1e-10 ... 1e-8": [
+            Part(f"gap at {at(phi, k)}", gaps[k], 0.0) for k in within(gaps, *SEPARATE)
+        ],
+        "k_T/k_N in 1e-6 ... 1e-2": [
+            Part(f"gap at {at(phi, k)}", gaps[k], high=0.0) for k in within(gaps, *OVERLAP)
+        ],
+        "k_T/k_N ≥ 1": [
+            Part(f"share at {at(phi, k)}", _share_above(of), PURE)
+            for k, of in within(spectra, *MERGED).items()
+        ],
+    }
+    return Outcome(every(parts), _gap_and_size(samples.n, within(gaps, *OVERLAP)))
+
+
+def _gap(of: Modes) -> Estimate:
+    gap = per_sample(lambda r, t: np.log10(t[0] / r[-1]), of.rotational, of.translational)
+    return mean(gap)
+
+
+def _share_above(of: Modes) -> Estimate:
+    return mean(per_sample(lambda r, t: np.mean(r > t[0]), of.rotational, of.translational))
+
+
+def _gap_and_size(n: int, gaps: dict[float, Estimate]) -> str:
+    """A gap at this N that is one of its box: the N at which the lowest sound wave closes it."""
+    open_gaps = {kappa: gap.value for kappa, gap in gaps.items() if gap.value > 0}
+    listed = ", ".join(f"{n * 100**gap:.0e} at κ = {k:g}" for k, gap in open_gaps.items())
+    sentence = "The lowest translational mode is a sound wave of the box, ω ∝ N^(-1/2); it meets"
+    return f"{sentence} the rotational band at N ≈ {listed}." if listed else ""
+
+
+@claim("A11", unit="1")
+def frictionless_band(ensemble) -> Outcome:
+    """At k_T/k_N = 1e-8 the translational band is the spectrum of frictionless grains (Fig. 11).
+
+    Relative shift of the translational ω against those at k_T = 0, rank by rank in each sample
+    (at 50 shares of the band, where the numbers of modes differ); its mean size.
+
+    Criterion: the mean shift is below 1 %.
+    """
+    samples = richest(separable(ensemble), SEPARABLE)
+    phis = [p for p in samples.phis(SEPARABLE, 0.0) if samples.kappas(SEPARABLE, p, TINY, WEAK)]
+    if not phis:
+        raise NotAsked("spectra at k_T = 0 and at a k_T/k_N ≤ 1e-8")
+    phi, kappa = phis[-1], samples.kappas(SEPARABLE, phis[-1], TINY, WEAK)[-1]
+    with_friction, without = modes(samples, phi, kappa).translational, frictionless(samples, phi)
+    counts = [np.isfinite(band).sum(axis=1).mean() for band in (with_friction, without)]
+    shift = Part(at(phi, kappa), mean(per_sample(_shift, with_friction, without)), high=0.01)
+    note = f"{counts[0]:.1f} translational modes against {counts[1]:.1f} without friction."
+    return Outcome([shift], note)
+
+
+def _shift(band: np.ndarray, reference: np.ndarray) -> float:
+    if len(band) != len(reference):
+        shares = (np.arange(50) + 0.5) / 50
+        band, reference = np.quantile(band, shares), np.quantile(reference, shares)
+    return np.mean(np.abs(band / reference - 1.0))

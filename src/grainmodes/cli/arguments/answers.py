@@ -1,0 +1,29 @@
+"""Commands that only tell: what a file holds, what a scene will cost."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from grainmodes.cli.arguments import options
+
+
+def define(commands) -> None:
+    """Add these commands."""
+    for add in (_show, _cost):
+        add(commands)
+
+
+def _show(commands) -> None:
+    sentence = "Say what a file holds: names, dimensions, units, provenance, failures."
+    command = options.command(commands, "show", "show:show", sentence)
+    command.add_argument("file", type=Path, help="any netCDF file of a study")
+
+
+def _cost(commands) -> None:
+    sentence = "Say what a scene will cost before it runs: CPU hours, memory, disk."
+    command = options.command(commands, "cost", "scenes:cost", sentence)
+    command.add_argument("config", type=Path, help="a scene, as config/default.yaml")
+    command.add_argument("--cores", type=int, default=2, help="jobs at once; 2 if absent")
+    command.add_argument(
+        "--costs", type=Path, metavar="FILE", help="costs on another machine: `snakemake growth`"
+    )

@@ -1,0 +1,88 @@
+"""What commands share: how one is made, the options of many of them, and the values of these."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+
+from grainmodes.parameters.grid import parse_seeds
+
+UNITS = "Units: k_N = m = d = 1, d being the diameter and m the mass of a large grain."
+
+
+def command(commands, name: str, run: str, sentence: str) -> argparse.ArgumentParser:
+    """A command that runs `module:function` of `grainmodes.cli`."""
+    command = commands.add_parser(name, help=sentence, description=sentence, epilog=UNITS)
+    command.set_defaults(run=run)
+    return command
+
+
+def n(command) -> None:
+    """`--n`, required."""
+    command.add_argument("--n", type=int, required=True, help="number of grains, even")
+
+
+def phi(command) -> None:
+    """`--phi`, required."""
+    command.add_argument("--phi", type=float, required=True, help="area fraction")
+
+
+def kt(command) -> None:
+    """`--kt`, required."""
+    command.add_argument(
+        "--kt", type=float, required=True, help="tangential stiffness k_T / k_N; 0: frictionless"
+    )
+
+
+def seeds(command) -> None:
+    """`--seeds`, required: one or a range."""
+    command.add_argument(
+        "--seeds",
+        "--seed",
+        type=_seed_range,
+        required=True,
+        metavar="SEEDS",
+        help="one seed, as 3, or a range with both ends, as 0-7",
+    )
+
+
+def settings(command) -> None:
+    """`--settings`: what deviates from the defaults."""
+    command.add_argument(
+        "--settings",
+        type=json_object,
+        default={},
+        metavar="JSON",
+        help="a piece of a configuration: contact_law, observables, protocol (config/README.md)",
+    )
+
+
+def output(command, meaning: str = "file to write") -> None:
+    """`--output`, required."""
+    command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=meaning)
+
+
+def _seed_range(text: str) -> range:
+    try:
+        return parse_seeds(text if "-" in text else f"{text}-{text}")
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+
+
+def positive(text: str) -> int:
+    """A whole number above 0."""
+    if not (text.isdigit() and int(text) > 0):
+        raise argparse.ArgumentTypeError(f"{text!r} is no whole number above 0")
+    return int(text)
+
+
+def json_object(text: str) -> dict:
+    """A JSON object."""
+    try:
+        value = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise argparse.ArgumentTypeError(f"{text!r} is not JSON ({error})") from error
+    if not isinstance(value, dict):
+        raise argparse.ArgumentTypeError(f"{text!r} is no JSON object, needed is one as {{}}")
+    return value

@@ -1,0 +1,41 @@
+"""The table of verdicts as text, page and CSV, and the command that writes it."""
+
+import csv
+
+import numpy as np
+
+import claimed
+from grainmodes.claims import check, report
+from grainmodes.claims.paper_a import CLAIMS
+from grainmodes.cli import main
+
+NAMES = [f"A{number}" for number in range(1, 20)]
+
+
+def test_reports_hold_every_claim(tmp_path):
+    found = check(claimed.ensemble().drop_vars("g_simulated"), CLAIMS)
+    for suffix in report.FORMS:
+        report.write(found, tmp_path / f"claims{suffix}")
+    with open(tmp_path / "claims.csv", encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    page = (tmp_path / "claims.md").read_text(encoding="utf-8")
+    assert [row["claim"] for row in rows] == NAMES
+    assert float(rows[1]["measured"]) == found[1].measured
+    assert all(f"| {name} |" in page and f"**{name}, " in page for name in NAMES)
+    table = [line.replace("\\|", "") for line in page.splitlines() if line.startswith("|")]
+    assert {line.count("|") for line in table} == {6}
+    assert "18 holds" in report.as_text(found)
+    assert "1 not asked" in report.as_text(found)
+
+
+def test_the_command_prints_writes_and_refuses(tmp_path, capsys):
+    path = tmp_path / "ensemble.nc"
+    claimed.ensemble().assign_coords(mode=np.arange(192)).to_netcdf(path)
+    assert main(["claims", str(path)]) == 0
+    assert capsys.readouterr().out.startswith("A1   holds")
+    assert main(["claims", str(path), "-o", str(tmp_path / "a.md"), str(tmp_path / "a.csv")]) == 0
+    assert (tmp_path / "a.md").is_file() and (tmp_path / "a.csv").is_file()
+    assert main(["claims", str(path), "-o", str(tmp_path / "a.txt")]) == 1
+    assert "allowed are .md, .csv" in capsys.readouterr().err
+    assert main(["claims", str(tmp_path / "none.nc")]) == 1
+    assert "no such file" in capsys.readouterr().err

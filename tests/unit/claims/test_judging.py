@@ -1,0 +1,65 @@
+"""How parts with errors become a verdict, and where the errors come from."""
+
+import numpy as np
+import pytest
+
+from grainmodes.claims.claim import (
+    CONTRADICTED,
+    HOLDS,
+    NOT_RESOLVED,
+    Outcome,
+    Part,
+    claim,
+)
+from grainmodes.claims.estimates import Estimate, crossing, jackknife, mean, relative_difference
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "expected"),
+    [
+        (0.5, 0.1, HOLDS),
+        (0.85, 0.1, NOT_RESOLVED),
+        (1.2, 0.1, NOT_RESOLVED),
+        (1.31, 0.1, CONTRADICTED),
+        (-0.31, 0.1, CONTRADICTED),
+        (0.5, np.nan, NOT_RESOLVED),
+    ],
+)
+def test_a_part_needs_two_errors_to_hold_and_three_to_be_contradicted(value, error, expected):
+    assert Part("here", Estimate(value, error), 0.0, 1.0).verdict == expected
+
+
+def test_the_worst_part_decides_and_is_named():
+    parts = {"good": 0.5, "bad": 3.0, "worse": 4.0}
+
+    @claim("A0", unit="1")
+    def three_numbers(ensemble):
+        """Three numbers.
+
+        Criterion: below 1.
+        """
+        return Outcome([Part(name, Estimate(x, 0.1), high=1.0) for name, x in parts.items()])
+
+    verdict = three_numbers(None)
+    assert (verdict.verdict, verdict.where, verdict.measured) == (CONTRADICTED, "worse", 4.0)
+    assert (verdict.statement, verdict.criterion) == ("Three numbers.", "below 1.")
+    assert "2 of 3 are contradicted: worse" in verdict.explanation
+
+
+def test_the_jackknife_of_a_mean_is_its_standard_error():
+    values = np.random.default_rng(3).normal(size=7)
+    assert jackknife(np.mean, values) == pytest.approx(mean(values))
+    assert mean(values).error == pytest.approx(values.std(ddof=1) / 7**0.5)
+
+
+def test_what_packings_share_drops_out_of_a_paired_difference():
+    reference = np.random.default_rng(4).normal(5.0, 2.0, 8)
+    assert relative_difference(1.02 * reference, reference) == pytest.approx((0.02, 0.0), abs=1e-12)
+
+
+def test_a_crossing_is_found_between_the_points_of_the_grid():
+    kappas = np.array([1e-2, 1.0, 2.0, 10.0])
+    rows = np.log(kappas / 3.0) * np.array([[0.9], [1.0], [1.1]])
+    assert crossing(kappas, rows) == pytest.approx((3.0, 0.0), abs=1e-9)
+    assert crossing(kappas[:3], rows[:, :3]) == pytest.approx((2.0, 0.0))
+    assert crossing(kappas[3:], rows[:, 3:]) == pytest.approx((10.0, 0.0))

@@ -1,0 +1,71 @@
+"""The schema: shipped scenes, defaults, and keys that say what they are."""
+
+from copy import deepcopy
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from grainmodes.configuration import read_scene
+from grainmodes.configuration.schema import complete, schema
+from grainmodes.parameters.figures import FIGURES
+from grainmodes.parameters.protocol import Protocol
+from scenes import CONFIG, GRID, scene_with
+
+
+def leaves(rule: dict, path: str = ""):
+    for name, inner in rule["properties"].items():
+        key = f"{path}.{name}".removeprefix(".")
+        if "properties" in inner:
+            yield from leaves(inner, key)
+        elif "properties" in inner.get("items", {}):
+            yield from leaves(inner["items"], key)
+        else:
+            yield key, inner
+
+
+@pytest.mark.parametrize("path", sorted(CONFIG.glob("*.yaml")), ids=lambda path: path.stem)
+def test_shipped_scenes_are_valid(path):
+    assert read_scene(path).study == path.stem
+
+
+def test_the_default_scene_is_paper_a_small():
+    scene = read_scene(CONFIG / "default.yaml")
+    small = [point for point in scene.points if point.n == 256]
+    assert len(small) == 8 * 8
+    assert {point.phi for point in small} == {0.83, 0.84, 0.85, 0.86, 0.87, 0.88, 0.89, 0.9}
+    assert len(scene.blocks_of(256, 0.9, 1e-4)) == 1
+    assert scene.figures == tuple(FIGURES)
+
+
+def test_the_schema_is_one():
+    Draft202012Validator.check_schema(schema())
+
+
+@pytest.mark.parametrize(("key", "rule"), list(leaves(schema())), ids=lambda value: str(value)[:40])
+def test_every_key_says_what_it_is(key, rule):
+    assert rule["description"].endswith(".")
+    inner = rule.get("items", rule)
+    numeric = "number" in inner.get("type", "") or "integer" in inner.get("type", "")
+    assert {"type", "enum"} & set(inner)
+    assert not numeric or {"maximum"} <= set(inner)
+
+
+@pytest.mark.parametrize("key", [key for key, _ in leaves(schema())])
+def test_every_key_stands_in_the_handbook(key):
+    assert f"`{key}`" in (CONFIG / "README.md").read_text(encoding="utf-8")
+
+
+def test_defaults_are_those_of_the_protocol():
+    assert scene_with().protocol == Protocol()
+
+
+def test_completing_leaves_the_configuration_alone():
+    config = {"study": "small", "grids": [deepcopy(GRID)], "contact_law": None}
+    before = deepcopy(config)
+    complete(config, schema())
+    assert config == before
+
+
+@pytest.mark.parametrize("text", ["1e-8", "1.0e-8", " 1E-08 "])
+def test_yaml_numbers_without_a_point_are_numbers(text):
+    assert scene_with("grid.kt", [text]).grids[0].kt == (1e-8,)

@@ -1,0 +1,44 @@
+"""The work of a spectrum, by its kind, its size and its method."""
+
+from dataclasses import replace
+
+import pytest
+
+from grainmodes.cost.work import work
+from grainmodes.parameters.protocol import SpectrumChoices
+from priced import TABLE
+
+CHOICES = SpectrumChoices(factorisation="superlu", fineness=1.0)
+
+
+@pytest.mark.parametrize(
+    ("kind", "n", "method", "units"),
+    [
+        ("counts", 256, "auto", {"dense_values": 1}),
+        ("counts", 4096, "auto", {"count_superlu": 641}),
+        ("counts", 256, "counting", {"count_superlu": 641}),
+        ("counts", 4096, "dense", {"dense_values": 1}),
+        ("bands", 256, "auto", {"dense_modes": 1}),
+        ("bands", 65536, "auto", {"count_superlu": 8 * 641, "window_superlu": 60 * 641}),
+        ("bands", 4096, "auto", {"count_superlu": 8 * 641, "window_superlu": 3 * 4096}),
+        ("eigenvalues", 1024, "auto", {"dense_values": 1}),
+        ("modes", 1024, "auto", {"dense_modes": 1}),
+        ("modes", 1024, "windows", {"window_superlu": 3 * 1024}),
+        ("modes", 4096, "auto", {"window_superlu": 3 * 4096}),
+        ("modes", 4096, "dense", {"dense_modes": 1}),
+    ],
+)
+def test_a_spectrum_is_the_work_of_its_method(kind, n, method, units):
+    choices = replace(CHOICES, method=method)
+    assert work("spectrum", kind, n, 1.0, choices, TABLE) == units
+    assert work("spectrum_rattlers", kind, n, 1.0, choices, TABLE) == units
+
+
+def test_without_rotation_there_is_less_of_a_spectrum():
+    choices = replace(CHOICES, method="windows")
+    assert work("spectrum", "modes", 1024, 0.0, choices, TABLE) == {"window_superlu": 2048}
+    assert work("spectrum", "counts", 4096, 0.0, choices, TABLE) == {"count_superlu": 541}
+
+
+def test_two_hessians_are_counted_whatever_the_spectrum():
+    assert work("spectrum_hessian", "modes", 4096, 1.0, CHOICES, TABLE) == {"count_superlu": 1282}

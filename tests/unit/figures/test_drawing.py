@@ -1,0 +1,115 @@
+"""The three files of a figure, and what is refused before there is any."""
+
+import time
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import synthetic
+from grainmodes.dataset.files import BlockError
+from grainmodes.figures import (
+    appearance,
+    draw,
+)
+from grainmodes.parameters.figures import FIGURES
+
+OF_ENSEMBLES = [name for name, figure in FIGURES.items() if figure.source == "ensemble"]
+
+
+@pytest.mark.parametrize("name", OF_ENSEMBLES)
+def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, whole, tmp_path):
+    draw(name, whole, tmp_path / name, {})
+    assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+    assert (tmp_path / f"{name}.pdf").read_bytes().startswith(b"%PDF")
+    header = [line for line in (tmp_path / f"{name}.csv").open() if line.startswith("#")]
+    numbers = pd.read_csv(tmp_path / f"{name}.csv", comment="#")
+    assert header[0] == f"# {FIGURES[name].title}\n"
+    assert [line.split()[1] for line in header[1:]] == list(numbers.columns)
+    assert len(numbers)
+    assert len(list(tmp_path.iterdir())) == 3
+
+
+def test_the_same_ensemble_gives_the_same_bytes(path, tmp_path):
+    for run in ("first", "second"):
+        draw("g_phi", path, tmp_path / run, {})
+        time.sleep(1.1)
+    for suffix in (".png", ".pdf", ".csv"):
+        first, second = (tmp_path / f"{run}{suffix}" for run in ("first", "second"))
+        assert first.read_bytes() == second.read_bytes()
+
+
+@pytest.mark.parametrize("name", OF_ENSEMBLES)
+def test_a_study_without_a_jammed_sample_still_has_its_figures(name, tmp_path):
+    kts, stages = (0.0, 1e-8, 1e-4), synthetic.WHOLE
+    path = synthetic.ensemble(tmp_path, phis=(0.83,), kts=kts, seeds=1, stages=stages)
+    draw(name, path, tmp_path / name, {})
+    assert (tmp_path / f"{name}.pdf").exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "sentence"),
+    [
+        ("g_psi", {}, "figure 'g_psi': expected one of g_phi, g_kt"),
+        ("dos", {"colour": "red"}, "figure dos: unknown option 'colour', allowed are n, phi, kt"),
+        (
+            "dos",
+            {"phi": 0.87},
+            "phi = 0.87: of this ensemble, the figure can show 0.86, 0.9",
+        ),
+        ("dos", {"kt": (3.0,)}, "kt = 3.0: of this ensemble, the figure can show 1e-08"),
+        ("dos", {"n": 17}, "n = 17: of this ensemble, the figure can show 16"),
+        ("dos_n", {"kt": (1e-8, 1.0)}, "kt: the figure shows one value, asked for are 2"),
+        ("dos", {"fineness": 0.0}, r"fineness is 0.0, allowed is \(0, 1\]"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_and_leaves_no_file(
+    name, options, sentence, path, tmp_path
+):
+    with pytest.raises(ValueError, match=sentence):
+        draw(name, path, tmp_path / "figure", options)
+    assert not list(tmp_path.iterdir())
+
+
+def test_observables_that_a_figure_needs_are_named(tmp_path):
+    path = synthetic.ensemble(tmp_path, phis=(0.9,), kts=(0.0,), stages=("packings", "rigidity"))
+    for name, sentence in {
+        "dos": "holds no eigenvalue",
+        "participation": "holds no psi_rotational",
+        "participation_ratio": "holds no participation_ratio",
+        "dos_hessian": "holds no bin_count_hessian",
+        "dos_rattlers": "holds no eigenvalue_rattlers",
+        "dos_n": "holds no eigenvalue",
+    }.items():
+        with pytest.raises(BlockError, match=sentence):
+            draw(name, path, tmp_path / "figure", {})
+    with pytest.raises(ValueError, match="figure g_kt: the ensemble has no k_T > 0"):
+        draw("g_kt", path, tmp_path / "figure", {})
+
+
+def test_a_figure_that_fails_half_way_leaves_the_old_one(path, tmp_path, monkeypatch):
+    draw("g_phi", path, tmp_path / "figure", {})
+    before = {entry.name: entry.read_bytes() for entry in tmp_path.iterdir()}
+
+    def no_space(*_, **__):
+        raise OSError("no space left on device")
+
+    monkeypatch.setattr(pd.DataFrame, "to_csv", no_space)
+    with pytest.raises(OSError, match="no space"):
+        draw("g_phi", path, tmp_path / "figure", {"kt": (1.0,)})
+    assert {entry.name: entry.read_bytes() for entry in tmp_path.iterdir()} == before
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(1e-8, "10^{-8}"), (0.0, "0"), (2.0, "2"), (0.03, r"3\times 10^{-2}"), (1e-2, "10^{-2}")],
+)
+def test_numbers_as_formulas(value, text):
+    assert appearance.power(value) == text
+
+
+def test_labels_of_samples_and_fractions():
+    assert appearance.samples([8, 8]) == "8 samples"
+    assert appearance.samples(np.array([6, 8])) == "6–8 samples"
+    assert appearance.samples([1]) == "1 sample"
+    assert [appearance.fraction(phi) for phi in (0.9, 0.845)] == ["0.90", "0.845"]
