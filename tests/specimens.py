@@ -14,8 +14,8 @@ from hypothesis import HealthCheck, settings
 import naive
 from grainmodes.kernels.laws import Hertz, Interaction, interaction
 from grainmodes.packing import Contacts, History, Packing, find_contacts
+from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.protocol import Compression
 from grainmodes.protocols.compression import advanced, balanced, placed
 from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
 

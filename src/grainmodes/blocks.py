@@ -14,8 +14,9 @@ from grainmodes.dataset.files import Block
 from grainmodes.forces import largest, net_force
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import find_contacts
+from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw, Rattlers
-from grainmodes.parameters.protocol import Compression, StepStrain
+from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.compression import advanced, balanced, placed
 from grainmodes.protocols.step_strain import step_strain
 from grainmodes.rigidity import Moduli, rigidity

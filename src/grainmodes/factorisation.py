@@ -19,7 +19,7 @@ import numpy as np
 import scipy.sparse as sparse
 from scipy.sparse.linalg import splu
 
-from grainmodes.parameters.protocol import PARDISO_FROM
+from grainmodes.parameters.factors import PARDISO_FROM
 
 GROWTH = 1e9
 """Largest entry of the factors, in the largest of the matrix: the entries of the matrix are kept to

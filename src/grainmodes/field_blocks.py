@@ -22,7 +22,7 @@ from grainmodes.kernels.laws import interaction
 from grainmodes.packing import Packing
 from grainmodes.parameters.fields import MOST_FOR_ALL_MODES
 from grainmodes.parameters.law import ContactLaw, Rattlers
-from grainmodes.parameters.protocol import StepStrain
+from grainmodes.parameters.strain import StepStrain
 from grainmodes.rows import attribute, response_block
 from grainmodes.samples import jammed_packing, seed_of
 

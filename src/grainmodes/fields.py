@@ -26,7 +26,8 @@ import numpy as np
 from grainmodes.kernels.laws import Interaction
 from grainmodes.modes import mode_sum
 from grainmodes.packing import Packing, find_contacts, nonaffine_motion, rattlers
-from grainmodes.parameters.protocol import SpectrumChoices, StepStrain
+from grainmodes.parameters.spectra import SpectrumChoices
+from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.step_strain import relaxed_steps
 from grainmodes.rigidity import rigidity
 from grainmodes.spectrum import Problem, problem, spectrum, windows

@@ -17,7 +17,7 @@ def point_block(
     """Every observable of the point (n, φ, k_T) for some seeds.
 
     The packings go through the same checkpoints as in a study, so the numbers are the same.
-    `spectrum` is one of `parameters.protocol.SPECTRA`.
+    `spectrum` is one of `parameters.spectra.SPECTRA`.
     """
     start = None
     for checkpoint in checkpoints_up_to(phi):

@@ -17,7 +17,7 @@ from grainmodes.packing import (
     find_contacts,
     rattlers,
 )
-from grainmodes.parameters.protocol import Compression
+from grainmodes.parameters.compression import Compression
 from grainmodes.protocols.compression import Trajectory
 from grainmodes.rows import attribute
 

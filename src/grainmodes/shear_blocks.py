@@ -17,7 +17,7 @@ from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import Packing
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.protocol import Shear
+from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear import Walk
 from grainmodes.protocols.sheared_state import Change, Event, Point
 from grainmodes.rows import response_block

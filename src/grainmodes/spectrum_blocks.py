@@ -23,8 +23,9 @@ from grainmodes.hessian import effective_hessian
 from grainmodes.kernels.laws import interaction
 from grainmodes.modes import ModeRigidity
 from grainmodes.packing import backbone, find_contacts
+from grainmodes.parameters.factors import FACTORISATIONS
 from grainmodes.parameters.law import ContactLaw, Rattlers
-from grainmodes.parameters.protocol import BINNED, FACTORISATIONS, SPECTRUM_METHODS, SpectrumChoices
+from grainmodes.parameters.spectra import BINNED, SPECTRUM_METHODS, SpectrumChoices
 from grainmodes.rows import response_block
 from grainmodes.samples import jammed_packing
 from grainmodes.spectrum import Bands, Problem, Spectrum, band_averages, full_spectrum, problem

@@ -21,9 +21,9 @@ from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.fire import FireSettings, fire
 from grainmodes.kernels.laws import Hertz, interaction
+from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import checkpoints_up_to, phi_at_step
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.protocol import Compression
 from grainmodes.protocols.compression import advanced, balanced, placed
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fast, relax_loosely

@@ -9,8 +9,9 @@ import naive
 from grainmodes.forces import largest, net_force
 from grainmodes.jacobian import jacobian
 from grainmodes.packing import Packing, find_contacts, rattlers
+from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.protocol import Compression, StepStrain
+from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.compression import balanced, placed
 from grainmodes.protocols.step_strain import step_strain
 from grainmodes.rigidity import net_rate, rigidity

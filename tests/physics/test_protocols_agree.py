@@ -7,7 +7,7 @@ from scipy.stats import ks_2samp
 from grainmodes.forces import stress
 from grainmodes.kernels.damping import Dashpot
 from grainmodes.packing import Packing, find_contacts, rattlers
-from grainmodes.parameters.protocol import Compression
+from grainmodes.parameters.compression import Compression
 from grainmodes.protocols.compression import advanced, balanced, placed
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.newton import newton

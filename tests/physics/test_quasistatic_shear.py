@@ -13,7 +13,7 @@ from grainmodes.jacobian import jacobian
 from grainmodes.kernels.laws import Harmonic, interaction
 from grainmodes.packing import Packing, find_contacts, nonaffine_motion
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.protocol import Shear
+from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.quasistatic import first_balance, step_to
 from grainmodes.protocols.shear import RIGIDITY_FELL, Walk
 from grainmodes.protocols.sheared_state import State

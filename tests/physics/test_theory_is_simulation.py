@@ -7,7 +7,7 @@ import pytest
 
 from grainmodes.forces import stress
 from grainmodes.packing import History, Packing, find_contacts
-from grainmodes.parameters.protocol import StepStrain
+from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.step_strain import step_strain
 from grainmodes.relaxation.newton import newton
 from grainmodes.rigidity import rigidity

@@ -9,7 +9,7 @@ import pytest
 
 from grainmodes.forces import stress
 from grainmodes.packing import find_contacts, rattlers
-from grainmodes.parameters.protocol import Compression
+from grainmodes.parameters.compression import Compression
 from grainmodes.protocols.compression import balanced, placed
 from grainmodes.rigidity import rigidity
 from grainmodes.spectrum import spectrum

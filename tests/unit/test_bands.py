@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from grainmodes.binning import fixed_edges
-from grainmodes.parameters.protocol import SpectrumChoices
+from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.shift import SymmetricShift
 from grainmodes.spectrum import band_averages, bands, problem
 from grainmodes.spectrum.counting import counts, rotational_sums

@@ -18,7 +18,7 @@ from grainmodes.fields import (
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw, Rattlers
-from grainmodes.parameters.protocol import StepStrain
+from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.step_strain import relaxed_steps
 from grainmodes.rows import block_of
 from grainmodes.samples import packed

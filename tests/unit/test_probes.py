@@ -15,7 +15,8 @@ from grainmodes.kernels.laws import Hertz
 from grainmodes.modes import ModeRigidity, mode_sum
 from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.protocol import Protocol, StepStrain
+from grainmodes.parameters.protocol import Protocol
+from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.frictional_compression import frictional_compression, loosened
 from grainmodes.protocols.step_strain import forward_rigidity
 from grainmodes.relaxation.accuracy import step_orders

@@ -10,7 +10,7 @@ from grainmodes.linear import FloppyError, PinnedFactor
 from grainmodes.modes import ModeRigidity, elastic_modes, mode_sum
 from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.protocol import SpectrumChoices
+from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.rigidity import affine_displacement, net_rate, relative, rigidity
 from grainmodes.spectrum import spectrum
 from specimens import (

@@ -8,7 +8,7 @@ import pytest
 import scipy.sparse as sparse
 
 import exact
-from grainmodes.parameters.protocol import SpectrumChoices
+from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.shift import SymmetricShift
 from grainmodes.spectrum import dense, full_spectrum, problem, windows
 from grainmodes.spectrum.windows import Window, WindowError

@@ -6,9 +6,12 @@ import json
 from dataclasses import asdict, dataclass, replace
 
 from grainmodes.configuration.grids import Grid, drawable
+from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import Point, seed_blocks
 from grainmodes.parameters.law import ContactLaw, Rattlers
-from grainmodes.parameters.protocol import Compression, Protocol, SpectrumChoices, StepStrain
+from grainmodes.parameters.protocol import Protocol
+from grainmodes.parameters.spectra import SpectrumChoices
+from grainmodes.parameters.strain import StepStrain
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import yaml
 
-from grainmodes.parameters.protocol import Compression
+from grainmodes.parameters.compression import Compression
 
 COSTS = Path(__file__).with_name("costs.yaml")
 """The table that comes with the package."""

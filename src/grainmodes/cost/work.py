@@ -17,11 +17,11 @@ from grainmodes.binning import (
     ROTATIONAL_DIVISIONS,
 )
 from grainmodes.cost.table import Table
-from grainmodes.parameters.protocol import (
+from grainmodes.parameters.factors import PARDISO_FROM
+from grainmodes.parameters.spectra import (
     BINNED,
     DENSE_BINS_UP_TO,
     DENSE_MODES_UP_TO,
-    PARDISO_FROM,
     SpectrumChoices,
 )
 

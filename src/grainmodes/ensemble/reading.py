@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from grainmodes.dataset.files import BlockError
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.protocol import SpectrumChoices
+from grainmodes.parameters.spectra import SpectrumChoices
 
 if TYPE_CHECKING:
     import xarray as xr

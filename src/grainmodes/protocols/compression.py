@@ -17,8 +17,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from grainmodes.packing import Packing
+from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import phi_at_step
-from grainmodes.parameters.protocol import Compression
 from grainmodes.relaxation.frictionless import (
     FLOPPY_FORCE,
     relax_fast,

@@ -27,7 +27,7 @@ from grainmodes.forces import is_frictionless, mean_contact_force
 from grainmodes.kernels.damping import Drag
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing import History, Packing, find_contacts
-from grainmodes.parameters.protocol import Shear
+from grainmodes.parameters.strain import Shear
 from grainmodes.relaxation.balance import Balance
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.following import find_balance

@@ -21,7 +21,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from grainmodes.packing import Packing
-from grainmodes.parameters.protocol import Shear
+from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.quasistatic import first_balance, step_to
 from grainmodes.protocols.sheared_state import Change, Event, Point, State, network_changes
 

@@ -22,7 +22,7 @@ from grainmodes.forces import is_frictionless, stress
 from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing import Contacts, Packing, find_contacts, rattlers
-from grainmodes.parameters.protocol import StepStrain
+from grainmodes.parameters.strain import StepStrain
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.newton import newton
 from grainmodes.relaxation.result import Relaxed

@@ -6,7 +6,7 @@ import numpy as np
 
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing import Packing
-from grainmodes.parameters.protocol import SpectrumChoices
+from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.spectrum.bands import Bands, band_averages
 from grainmodes.spectrum.full import Spectrum, full_spectrum
 from grainmodes.spectrum.problem import Problem, problem

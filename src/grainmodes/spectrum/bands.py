@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import stdtrit
 
-from grainmodes.parameters.protocol import DENSE_BINS_UP_TO, SpectrumChoices
+from grainmodes.parameters.spectra import DENSE_BINS_UP_TO, SpectrumChoices
 from grainmodes.spectrum import dense, windows
 from grainmodes.spectrum.counting import Sums, counts, rotational_sums
 from grainmodes.spectrum.measures import participation_ratio, rotational_fraction

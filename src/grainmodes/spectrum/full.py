@@ -16,7 +16,7 @@ from functools import partial
 
 import numpy as np
 
-from grainmodes.parameters.protocol import DENSE_MODES_UP_TO, SpectrumChoices
+from grainmodes.parameters.spectra import DENSE_MODES_UP_TO, SpectrumChoices
 from grainmodes.spectrum import dense, windows
 from grainmodes.spectrum.measures import Measured
 from grainmodes.spectrum.problem import Problem

@@ -8,7 +8,7 @@ import pytest
 from benchmarks import growth
 from grainmodes.cost import Law, read_table
 from grainmodes.cost.work import work
-from grainmodes.parameters.protocol import SpectrumChoices
+from grainmodes.parameters.spectra import SpectrumChoices
 from priced import TABLE
 
 

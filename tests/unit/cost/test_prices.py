@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from grainmodes.cost import estimate, wall_seconds
-from grainmodes.parameters.protocol import Compression
+from grainmodes.parameters.compression import Compression
 from priced import FREE, TABLE, jobs, observing, priced, scene_with, total
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from grainmodes.cost.work import work
-from grainmodes.parameters.protocol import SpectrumChoices
+from grainmodes.parameters.spectra import SpectrumChoices
 from priced import TABLE
 
 CHOICES = SpectrumChoices(factorisation="superlu", fineness=1.0)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from grainmodes.cli.arguments import options
 from grainmodes.parameters.law import NORMAL_LAWS, TANGENTIAL_LAWS
-from grainmodes.parameters.protocol import SPECTRA
+from grainmodes.parameters.spectra import SPECTRA
 
 
 def define(commands) -> None:

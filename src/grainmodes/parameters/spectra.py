@@ -1,0 +1,33 @@
+"""How spectra are computed, and which kinds there are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+SPECTRA = ("none", "counts", "bands", "eigenvalues", "modes")
+SPECTRUM_METHODS = ("auto", "dense", "windows", "counting")
+
+DENSE_BINS_UP_TO = 2000
+"""Degrees of freedom up to which LAPACK's whole spectrum is cheaper than counts at edges."""
+
+DENSE_MODES_UP_TO = 5000
+"""Degrees of freedom up to which LAPACK finds all eigenvalues faster than windows do."""
+
+BINNED = ("counts", "bands")
+"""Kinds of spectrum that hold bins rather than modes."""
+
+
+@dataclass(frozen=True)
+class SpectrumChoices:
+    """How a spectrum is computed; "auto" takes the cheapest method that delivers what is asked.
+
+    `fineness` is a factor on the numbers of A's linear bins. Of a bin with more modes than
+    `modes_per_bin` the participation ratio is sampled on so many, and psi^R is counted in
+    `substeps` cells.
+    """
+
+    method: str = "auto"
+    factorisation: str = "auto"
+    fineness: float = 0.2
+    modes_per_bin: int = 60
+    substeps: int = 2
