@@ -92,6 +92,21 @@ rule probes:
         " --settings {params.settings:q} -o {output}"
 
 
+rule shear:
+    input:
+        packings=f"{STUDY}/packings/{BLOCK}",
+        code=sources("grainmodes.shear_blocks:shear_block", "grainmodes.cli.keeping"),
+    output:
+        f"{STUDY}/shear/{RESPONSE}",
+    params:
+        settings=scene.settings("shear"),
+    message:
+        f"Shear at {AT}."
+    shell:
+        "grainmodes shear {input.packings} --kt {wildcards.kt}"
+        " --settings {params.settings:q} -o {output}"
+
+
 rule fields:
     input:
         packings=first_packings,

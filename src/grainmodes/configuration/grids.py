@@ -22,6 +22,7 @@ class Observables:
     hessian: bool = False
     fields: bool = False
     probes: bool = False
+    shear: bool = False
 
     @property
     def words(self) -> set[str]:
@@ -33,6 +34,7 @@ class Observables:
             "rattlers": self.rattlers,
             "hessian": self.hessian,
             "fields": self.fields,
+            "shear": self.shear,
         }
         return {word for word, here in offered.items() if here}
 
@@ -80,6 +82,7 @@ class Grid:
             "spectrum_rattlers": asked.rattlers,
             "spectrum_hessian": asked.hessian and kt > 0.0,
             "probes": asked.probes and kt > 0.0,
+            "shear": asked.shear,
         }
         return [stage for stage, here in wanted.items() if here]
 
