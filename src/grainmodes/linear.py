@@ -10,6 +10,7 @@ in half the time; where a pivot fails, by SuperLU with row pivoting.
 from __future__ import annotations
 
 from copy import copy
+from functools import cache
 
 import numpy as np
 import scipy.sparse as sparse
@@ -63,7 +64,7 @@ class PinnedFactor:
 
     def _probe(self, root: np.ndarray) -> None:
         """A zero mode beyond the pinned ones answers any generic force beyond all bounds."""
-        force = np.random.default_rng(0).standard_normal(len(root))
+        force = _generic(len(root))
         answer = root * self._factor.solve(root * force)
         if not np.linalg.norm(answer) < SOFTEST * np.linalg.norm(force):
             raise FloppyError("the Jacobian has zero modes beyond the two translations")
@@ -80,6 +81,12 @@ class PinnedFactor:
         if refined:
             free += self._factor.solve(wanted - self._matrix @ free)
         return np.concatenate([np.zeros(2), free])
+
+
+@cache
+def _generic(size: int) -> np.ndarray:
+    """A force without any symmetry, (M,)."""
+    return np.random.default_rng(0).standard_normal(size)
 
 
 class _General:

@@ -49,7 +49,7 @@ def shear_block(
         while not walk.done and walk.advance():
             if keeper:
                 keeper.watch(seed, walk)
-        return row_of(walk)
+        return row_of(walk) | ({} if walk.done else {"failure": walk.ending})
 
     config = {"law": asdict(law), "shear": asdict(choices)}
     return response_block(packings, "shear", config, law, sample)

@@ -65,7 +65,7 @@ def step_to(strain: float, before: Balance, choices: Shear) -> tuple[Balance, bo
         found = find_balance(affine, before.interaction, choices.force_tolerance, before)
         if found is not None and _decided(found, choices):
             return found, False
-    return _by_dynamics(affine, before.interaction, choices), True
+    return _by_dynamics(affine, before, choices), True
 
 
 def _decided(found: Balance, choices: Shear) -> bool:
@@ -84,15 +84,17 @@ def affinely(before: Balance, strain: float, loaded: bool) -> Packing:
     return replace(sheared, history=History(contacts.i, contacts.j, s))
 
 
-def _by_dynamics(packing: Packing, interaction: Interaction, choices: Shear) -> Balance:
+def _by_dynamics(packing: Packing, before: Balance, choices: Shear) -> Balance:
     """Dynamics into a basin, Newton's method to its bottom; deeper in if that fails."""
+    interaction, like = before.interaction, before.handed_on.factor
     tolerance, left = _handover(packing, interaction, choices), choices.max_steps
     while left > 0:
         relaxed = _relaxed(packing, interaction, tolerance, choices, left)
-        found = find_balance(relaxed.packing, interaction, choices.force_tolerance)
-        if found is not None and _decided(found, choices):
+        found = find_balance(relaxed.packing, interaction, choices.force_tolerance, like=like)
+        to_the_end = tolerance <= choices.force_tolerance
+        if found is not None and (_decided(found, choices) or (to_the_end and not found.unstable)):
             return found
-        if tolerance <= choices.force_tolerance:
+        if to_the_end:
             break
         packing, left = relaxed.packing, left - relaxed.iterations
         tolerance = max(DEEPER * tolerance, choices.force_tolerance)

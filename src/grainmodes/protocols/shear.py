@@ -37,6 +37,7 @@ class Walk:
     """How far a shear has come, and how it goes on.
 
     `size` is the next step tried, in Δγ_Th; below the grid it is kept until `until` is reached.
+    `ending` says what kept the last step that failed from finding a balance.
     """
 
     now: State
@@ -46,6 +47,7 @@ class Walk:
     curve: list[Point] = field(default_factory=list)
     changes: list[Change] = field(default_factory=list)
     events: list[Event] = field(default_factory=list)
+    ending: str = ""
 
     @classmethod
     def start(cls, packing: Packing, interaction, choices: Shear) -> Walk:
@@ -83,8 +85,8 @@ class Walk:
         try:
             after = self._stepped(size)
             kind = kind_of(self.now, after)
-        except ArithmeticError:
-            after, kind = None, 0
+        except ArithmeticError as error:
+            after, kind, self.ending = None, 0, str(error)
         if size > 1 and (after is None or kind):
             self.size, self.until = largest_power_of_ten_below(size), self.now.units + size
         elif after is not None:

@@ -11,6 +11,8 @@ come back in. The balance may be a saddle: `Balance.unstable` tells.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from grainmodes.kernels.laws import Interaction
@@ -27,16 +29,21 @@ SHORTEST_STEP = 0.1
 
 
 def find_balance(
-    packing: Packing, interaction: Interaction, tolerance: float, before: Balance | None = None
+    packing: Packing,
+    interaction: Interaction,
+    tolerance: float,
+    before: Balance | None = None,
+    like: PinnedFactor | None = None,
 ) -> Balance | None:
     """The balance near a state, max|F̃| < `tolerance`; None where the iteration does not lead there.
 
     Args:
         before: the balance it comes from, whose factors are used as long as they do.
+        like: factors whose order of elimination may do, where there is no `before`.
     """
     inherited = before and before.handed_on
     factor = inherited and inherited.factor
-    now = Balance.of(packing, interaction, factor)
+    now = Balance.of(packing, interaction, factor or like)
     for _ in range(MOST):
         if before and factor and not np.array_equal(before.held, now.held):
             factor = None
@@ -85,4 +92,5 @@ def _let_go(balance: Balance) -> Balance:
     if not np.any(loose[balance.contacts.i] | loose[balance.contacts.j]):
         return balance
     packing = moved_out(balance.packing, balance.interaction.normal, loose)
-    return Balance.of(packing, balance.interaction, balance.like, balance.lost)
+    settled = Balance.of(packing, balance.interaction, balance.like)
+    return replace(settled, lost=balance.lost)
