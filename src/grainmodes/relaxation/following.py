@@ -24,6 +24,9 @@ from grainmodes.relaxation.rattlers import moved_out
 MOST = 40
 """Iterations: ten times what a step between events needs."""
 
+FARTHEST = 1.0
+"""Motion of a grain, in d, at which a Newton step is not even tried: J is next to singular."""
+
 SHORTEST_STEP = 0.1
 """Fraction of a Newton step below which it is given up."""
 
@@ -66,14 +69,15 @@ def _step(
     if not now.held.any():
         return None, None
     if factor is not None:
-        after = now.moved(_displacement(now, factor))
+        u = _displacement(now, factor)
+        after = now.moved(u) if np.abs(u).max() < FARTHEST else now
         if after.residual < max(GAIN * now.residual, tolerance):
             return after, factor
     try:
         u = _displacement(now, now.factor)
     except FloppyError:
         return None, None
-    length = 1.0
+    length = 1.0 if np.abs(u).max() < FARTHEST else 0.0
     while length >= SHORTEST_STEP:
         after = now.moved(length * u)
         if after.residual < now.residual:
