@@ -45,10 +45,10 @@ def _response(
     scene: Scene, table: Table, place: int, stage: str, points: list[Point], sizes: list[int]
 ) -> Item:
     """A stage at some points, each in blocks of so many samples."""
-    kind, choices = scene.grids[place].observables.spectrum, scene.protocol.spectrum
+    kind = scene.grids[place].observables.spectrum
     used, chains = set(), []
     for point in points:
-        units = work(stage, kind, point.n, point.kt, choices, table)
+        units = work(stage, kind, point.n, point.kt, scene.protocol, table)
         seconds = sum(times * table.laws[name].seconds_at(point.n) for name, times in units.items())
         disk = _stored(stage, kind, point, table)
         chains += [[Job(size, size * seconds, size * disk)] for size in sizes]
