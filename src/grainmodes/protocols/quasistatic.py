@@ -62,14 +62,11 @@ def step_to(strain: float, before: Balance, choices: Shear) -> tuple[Balance, bo
     """
     affine = affinely(before, strain, choices.loaded)
     if choices.relaxation == "newton":
-        found = find_balance(affine, before.interaction, choices.force_tolerance, before)
-        if found is not None and _decided(found, choices):
+        tolerance = choices.force_tolerance
+        found = find_balance(affine, before.interaction, tolerance, before, most_lost=tolerance)
+        if found is not None and not found.unstable:
             return found, False
     return _by_dynamics(affine, before, choices), True
-
-
-def _decided(found: Balance, choices: Shear) -> bool:
-    return found.lost <= choices.force_tolerance and not found.unstable
 
 
 def affinely(before: Balance, strain: float, loaded: bool) -> Packing:
@@ -90,9 +87,12 @@ def _by_dynamics(packing: Packing, before: Balance, choices: Shear) -> Balance:
     tolerance, left = _handover(packing, interaction, choices), choices.max_steps
     while left > 0:
         relaxed = _relaxed(packing, interaction, tolerance, choices, left)
-        found = find_balance(relaxed.packing, interaction, choices.force_tolerance, like=like)
         to_the_end = tolerance <= choices.force_tolerance
-        if found is not None and (_decided(found, choices) or (to_the_end and not found.unstable)):
+        most_lost = np.inf if to_the_end else choices.force_tolerance
+        found = find_balance(
+            relaxed.packing, interaction, choices.force_tolerance, like=like, most_lost=most_lost
+        )
+        if found is not None and not found.unstable:
             return found
         if to_the_end:
             break

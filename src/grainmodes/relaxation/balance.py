@@ -135,7 +135,7 @@ class Balance:
     @property
     def unstable(self) -> bool:
         """Whether J has negative eigenvalues; if not symmetric, an odd number of them."""
-        return self.inherited is None and self.factor.unstable
+        return (self.inherited.factor if self.inherited else self.factor).unstable
 
     def solved(self, force: np.ndarray) -> np.ndarray:
         """u with J u = `force`, (kN',).

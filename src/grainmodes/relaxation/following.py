@@ -18,7 +18,7 @@ import numpy as np
 from grainmodes.kernels.laws import Interaction
 from grainmodes.linear import FloppyError, PinnedFactor
 from grainmodes.packing import Packing
-from grainmodes.relaxation.balance import GAIN, Balance
+from grainmodes.relaxation.balance import GAIN, Balance, Inherited
 from grainmodes.relaxation.rattlers import moved_out
 
 MOST = 40
@@ -37,42 +37,44 @@ def find_balance(
     tolerance: float,
     before: Balance | None = None,
     like: PinnedFactor | None = None,
+    most_lost: float = np.inf,
 ) -> Balance | None:
     """The balance near a state, max|F̃| < `tolerance`; None where the iteration does not lead there.
 
     Args:
         before: the balance it comes from, whose factors are used as long as they do.
         like: factors whose order of elimination may do, where there is no `before`.
+        most_lost: force on a contact that opens at which the search is given up.
     """
     inherited = before and before.handed_on
     factor = inherited and inherited.factor
     now = Balance.of(packing, interaction, factor or like)
+    if before and not np.array_equal(before.held, now.held):
+        inherited = None
     for _ in range(MOST):
-        if before and factor and not np.array_equal(before.held, now.held):
-            factor = None
+        if now is None or now.lost > most_lost:
+            return None
         if now.residual < tolerance:
             settled = _let_go(now)
             if settled is now:
-                return now.heir(inherited if factor else None)
-            now, factor = settled, None
+                return now.heir(inherited)
+            now, inherited = settled, None
         else:
-            now, factor = _step(now, factor, tolerance)
-            if now is None:
-                return None
+            now, inherited = _step(now, inherited, tolerance)
     return None
 
 
 def _step(
-    now: Balance, factor: PinnedFactor | None, tolerance: float
-) -> tuple[Balance | None, PinnedFactor | None]:
-    """The next iterate, and the factors given if they led there."""
+    now: Balance, inherited: Inherited | None, tolerance: float
+) -> tuple[Balance | None, Inherited | None]:
+    """The next iterate, and the factors that led there if they gained a decade."""
     if not now.held.any():
         return None, None
-    if factor is not None:
-        u = _displacement(now, factor)
+    if inherited is not None:
+        u = _displacement(now, inherited.factor)
         after = now.moved(u) if np.abs(u).max() < FARTHEST else now
-        if after.residual < max(GAIN * now.residual, tolerance):
-            return after, factor
+        if _gained(now, after, tolerance):
+            return after, inherited
     try:
         u = _displacement(now, now.factor)
     except FloppyError:
@@ -81,9 +83,15 @@ def _step(
     while length >= SHORTEST_STEP:
         after = now.moved(length * u)
         if after.residual < now.residual:
-            return after, None
+            return after, Inherited(now.factor, 1) if _gained(now, after, tolerance) else None
         length *= 0.5
     return None, None
+
+
+def _gained(now: Balance, after: Balance, tolerance: float) -> bool:
+    """Whether a step brought a decade between the same grains, by factors worth keeping."""
+    decade = after.residual < max(GAIN * now.residual, tolerance)
+    return decade and np.array_equal(now.held, after.held)
 
 
 def _displacement(now: Balance, factor: PinnedFactor) -> np.ndarray:
