@@ -1,8 +1,9 @@
 """The first event of a shear, bracketed ever closer: B, Appendix B, Figs. 11 and 12.
 
 Every bracket is a walk of its own from γ = 0 with its own Δγ_Th = Δγ_in 10^-k. Without friction a
-balance does not depend on the path, and each bracket lies within the coarser ones. With springs
-that the steps load along chords, s and with it γ_c depend on the steps to their second order.
+balance does not depend on the path, and each bracket lies within the coarser ones. With friction an
+affine step may open a contact that a shorter one would have kept; its spring is lost, and the event
+comes early, by less than the step. So a bracket may end below a finer one.
 """
 
 from __future__ import annotations
