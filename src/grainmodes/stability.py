@@ -10,6 +10,8 @@ The eigenvalues are those of M^(−1/2) J M^(−1/2), which is symmetric where J
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 import scipy.linalg
 import scipy.sparse as sparse
@@ -55,14 +57,47 @@ def lowest_eigenvalue(matrix: sparse.csc_array, factor: PinnedFactor, k: int) ->
         values = scipy.linalg.eigvals(matrix.toarray())
         values = values[np.argsort(np.abs(values))][2:]
         return _signed(values[0]) if len(values) else np.nan
+    largest = eigs(**_inverted(size, factor, k), return_eigenvectors=False)
+    return _signed(1.0 / largest[0])
+
+
+class LowestMode(NamedTuple):
+    """λ with R of norm 1, (M,), and |J R − λ R|; of a complex pair the real part of R."""
+
+    eigenvalue: float
+    vector: np.ndarray
+    residual: float
+
+
+def lowest_mode(matrix: sparse.csc_array, factor: PinnedFactor, k: int) -> LowestMode:
+    """The eigenvector of `lowest_eigenvalue`, its largest component positive: B, Fig. 4.
+
+    A complex pair has no real eigenvector; its residual is then of the size of λ.
+    """
+    size = matrix.shape[0]
+    if size <= SMALL:
+        values, vectors = scipy.linalg.eig(matrix.toarray())
+        place = np.argsort(np.abs(values))[2]
+        value, vector = values[place], vectors[:, place]
+    else:
+        largest, vectors = eigs(**_inverted(size, factor, k))
+        value, vector = 1.0 / largest[0], vectors[:, 0]
+    top = vector[np.argmax(np.abs(vector))]
+    real = (vector * (np.abs(top) / top)).real
+    real /= np.linalg.norm(real)
+    signed = _signed(value)
+    return LowestMode(signed, real, float(np.linalg.norm(matrix @ real - signed * real)))
+
+
+def _inverted(size: int, factor: PinnedFactor, k: int) -> dict:
+    """J⁻¹ on fields without a translation, whose largest eigenvalue is asked for."""
     inverse = LinearOperator(
         (size, size),
         matvec=lambda f: _centred(factor.solve(_centred(f, k), refined=False), k),
         dtype=float,
     )
     start = _centred(np.random.default_rng(0).standard_normal(size), k)
-    largest = eigs(inverse, k=1, which="LM", v0=start, return_eigenvectors=False)
-    return _signed(1.0 / largest[0])
+    return {"A": inverse, "k": 1, "which": "LM", "v0": start}
 
 
 def _centred(field: np.ndarray, k: int) -> np.ndarray:

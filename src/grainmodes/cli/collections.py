@@ -26,7 +26,7 @@ def ensemble(arguments: Namespace) -> None:
 
 
 def figure(arguments: Namespace) -> None:
-    """An ensemble, or fields → one figure."""
+    """An ensemble, or files of single samples → one figure."""
     from grainmodes.figures import draw
 
     asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "fineness")}
@@ -35,8 +35,8 @@ def figure(arguments: Namespace) -> None:
 
 
 def _source(arguments: Namespace) -> Path | list[Path]:
-    """What the figure is drawn from: files of fields, or one ensemble."""
-    if FIGURES[arguments.figure].source == "fields":
+    """What the figure is drawn from: files of single samples, or one ensemble."""
+    if FIGURES[arguments.figure].source != "ensemble":
         return arguments.data
     if len(arguments.data) > 1:
         raise ValueError(

@@ -129,6 +129,17 @@ def shear(arguments: Namespace) -> None:
     keeping.forget()
 
 
+def close_up(arguments: Namespace) -> None:
+    """Packings → the first event of the first of them, looked at closely."""
+    from grainmodes.close_up_blocks import close_up_block
+
+    scene = _scene(arguments.settings, kt=arguments.kt)
+    law = scene.law_at(arguments.kt)
+    with _opened(arguments.packings, "packings") as packings:
+        block = close_up_block(packings, law, scene.protocol.shear)
+    write_block(arguments.output, block)
+
+
 def point(arguments: Namespace) -> None:
     """Everything of one point, without files between."""
     from grainmodes.point import point_block

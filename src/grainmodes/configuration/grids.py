@@ -23,6 +23,7 @@ class Observables:
     fields: bool = False
     probes: bool = False
     shear: bool = False
+    close_up: bool = False
 
     @property
     def words(self) -> set[str]:
@@ -35,6 +36,7 @@ class Observables:
             "hessian": self.hessian,
             "fields": self.fields,
             "shear": self.shear,
+            "close_up": self.close_up,
         }
         return {word for word, here in offered.items() if here}
 
@@ -70,7 +72,7 @@ class Grid:
         return point.n in self.n and point.phi in self.phi and point.kt in self.kt
 
     def stages(self, kt: float) -> list[str]:
-        """Stages that a point with this k_T asks for, beside its packings and fields.
+        """Stages that a point with this k_T asks for, beside packings and single samples.
 
         Without rotation the effective Hessian is J, and there is nothing to probe.
         """

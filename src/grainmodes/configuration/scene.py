@@ -63,6 +63,11 @@ class Scene:
         """The points of the grids that ask for shear."""
         return [point for grid in self.grids if grid.observables.shear for point in grid.points]
 
+    @property
+    def close_up_points(self) -> list[Point]:
+        """The points of the grids that ask for a close-up."""
+        return [point for grid in self.grids if grid.observables.close_up for point in grid.points]
+
     def grid_at(self, n: int, phi: float, kt: float) -> Grid:
         """The grid of a point; the first for a point off the grids."""
         point = Point(n, phi, kt)
@@ -104,6 +109,7 @@ class Scene:
             "fields": _part(law, protocol, "rattlers", "step_strain"),
             "probes": _part(law, protocol, "rattlers", "step_strain"),
             "shear": _part(law, protocol, "shear"),
+            "close_up": _part(law, protocol, "shear"),
             "ensemble": _part(law, protocol, *protocol) | {"study": self.study},
         }
         return json.dumps(parts[stage], sort_keys=True)

@@ -17,7 +17,7 @@ import numpy as np
 from grainmodes.forces import energy, stress
 from grainmodes.packing import Packing, nonaffine_motion
 from grainmodes.relaxation.balance import Balance
-from grainmodes.rigidity import AffineStep
+from grainmodes.rigidity import AffineStep, Moduli
 from grainmodes.stability import lowest_eigenvalue
 
 
@@ -63,14 +63,18 @@ class State:
         return stress(balance.backbone, balance.backbone_contacts, balance.interaction)
 
     @cached_property
-    def modulus(self) -> np.ndarray:
-        """dσ_αβ/dγ of a small step from here, (2, 2)."""
+    def response(self) -> Moduli:
+        """The answer to a small step from here; dq̊/dγ on the grains that carry load: B (41)."""
         balance = self.balance
         step = AffineStep(
             balance.backbone, balance.backbone_contacts, balance.interaction, self.loaded
         )
-        response = step.moduli(balance.solved(step.force))
-        return response.affine + response.nonaffine
+        return step.moduli(balance.solved(step.force))
+
+    @cached_property
+    def modulus(self) -> np.ndarray:
+        """dσ_αβ/dγ of a small step from here, (2, 2)."""
+        return self.response.affine + self.response.nonaffine
 
     @property
     def sigma(self) -> float:

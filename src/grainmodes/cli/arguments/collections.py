@@ -43,7 +43,7 @@ def _figure(commands) -> None:
         "data",
         type=Path,
         nargs="+",
-        help="file of `grainmodes ensemble`, or of `grainmodes fields`",
+        help="file of `grainmodes ensemble`, or files of `grainmodes fields` or `close-up`",
     )
     command.add_argument("--n", type=int, help="the number of grains to show")
     command.add_argument("--phi", type=float, help="the area fraction to show")

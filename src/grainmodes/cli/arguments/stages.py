@@ -21,6 +21,7 @@ def define(commands) -> None:
         _fields,
         _probes,
         _shear,
+        _close_up,
         _point,
     ):
         add(commands)
@@ -100,6 +101,11 @@ def _shear(commands) -> None:
         metavar="SECONDS",
         help="how often to keep how far a sample has come, beside the output file",
     )
+
+
+def _close_up(commands) -> None:
+    sentence = "The first event in the shear of the first of some packings, looked at closely."
+    _response(commands, "close-up", "stages:close_up", sentence)
 
 
 def _response(commands, name: str, run: str, sentence: str) -> argparse.ArgumentParser:
