@@ -48,13 +48,12 @@ def _source(arguments: Namespace) -> Path | list[Path]:
 def claims(arguments: Namespace) -> None:
     """An ensemble → the verdict on every claim."""
     from grainmodes.claims import check, report
-    from grainmodes.claims.paper_a import CLAIMS
     from grainmodes.ensemble import open_ensemble
 
     for path in arguments.outputs:
         report.form(path)
     with open_ensemble(arguments.ensemble) as opened:
-        verdicts = check(opened, CLAIMS)
+        verdicts = check(opened)
     for path in arguments.outputs:
         report.write(verdicts, path)
     if not arguments.outputs:

@@ -53,7 +53,7 @@ def _figure(commands) -> None:
 
 
 def _claims(commands) -> None:
-    sentence = "Check the claims A1 to A19 of paper A on an ensemble."
+    sentence = "Check the claims of papers A and B on an ensemble."
     command = options.command(commands, "claims", "collections:claims", sentence)
     command.add_argument("ensemble", type=Path, help="file of `grainmodes ensemble`")
     command.add_argument(
