@@ -77,6 +77,7 @@ def _sample(seed: int) -> dict[str, object]:
     changes = np.searchsorted(strain, CHANGES)
     one = np.ones(len(before))
     return {
+        "curve_count": len(strain),
         "curve_strain": strain,
         "curve_stress_xy": stress - 1e-3,
         "curve_stress_yx": stress + 1e-3,

@@ -29,7 +29,7 @@ def figure(arguments: Namespace) -> None:
     """An ensemble, or fields → one figure."""
     from grainmodes.figures import draw
 
-    asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "fineness")}
+    asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "fineness", "seed")}
     options = {name: value for name, value in asked.items() if value is not None}
     draw(arguments.figure, _source(arguments), arguments.output, options)
 

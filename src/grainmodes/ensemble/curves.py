@@ -11,6 +11,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -24,6 +25,10 @@ if TYPE_CHECKING:
 STATES = ("strain", "stress_xy", "stress_yx", "g_xy", "g_yx", "lowest_eigenvalue")
 NEAR = 2.5
 """How far before an event its approach begins, in steps Δγ_in."""
+
+
+BEYOND = 1.0 + 1e-9
+"""Factor on the last strain, which is to lie in the last bin."""
 
 
 class Approach(NamedTuple):
@@ -82,6 +87,16 @@ class Curve:
         """Δγ_in."""
         return float(self.step.max(initial=0.0))
 
+    def slopes(self, rises: np.ndarray, edges: np.ndarray) -> np.ndarray:
+        """Sum of `rise` or `predicted` over that of Δγ in bins (B,), without the events."""
+        kept = ~self.event
+        bins = np.searchsorted(edges, self.strain[:-1][kept], side="right") - 1
+        rise, strain = (
+            np.bincount(bins, of[kept], minlength=len(edges) - 1) for of in (rises, self.step)
+        )
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return rise / strain
+
     @property
     def approaches(self) -> list[Approach]:
         """One for every event."""
@@ -94,17 +109,31 @@ class Curve:
         return found
 
 
+def points_with_curves(ensemble: xr.Dataset) -> list[tuple[int, float, float]]:
+    """(n, phi, kt) with a curve of a converged and jammed sample, ascending.
+
+    Raises:
+        BlockError: the ensemble holds no curves.
+    """
+    states = variable(ensemble, "curve_count").where(_used(ensemble)).max("seed")
+    axes = [states[name].to_numpy().tolist() for name in ("n", "phi", "kt")]
+    places = zip(*np.nonzero(states.to_numpy() > 0), strict=True)
+    return [tuple(axis[k] for axis, k in zip(axes, place, strict=True)) for place in places]
+
+
+def _used(ensemble: xr.Dataset) -> xr.DataArray:
+    return (ensemble["converged"] == 1) & (ensemble["jammed"] == 1)
+
+
 def curves(ensemble: xr.Dataset, n: int, phi: float, kt: float) -> dict[int, Curve]:
     """Seed → curve of the converged and jammed samples of a point.
 
     Raises:
         BlockError: the ensemble holds no curves.
     """
-    variable(ensemble, "curve_strain")
+    variable(ensemble, "curve_count")
     point = ensemble.sel(n=n, phi=phi, kt=kt)
-    used = (point["converged"] == 1) & (point["jammed"] == 1)
-    used &= point["curve_strain"].notnull().any("state")
-    point = point.sel(seed=used)
+    point = point.sel(seed=_used(point) & (point["curve_count"] > 0))
     rows = {name: _rows(point, f"curve_{name}", "state") for name in STATES}
     events, changes = (_rows(point, f"{of}_strain_before", of) for of in ("event", "change"))
     seeds = point["seed"].to_numpy().tolist()
@@ -112,6 +141,11 @@ def curves(ensemble: xr.Dataset, n: int, phi: float, kt: float) -> dict[int, Cur
         seed: _curve({name: of[row] for name, of in rows.items()}, events[row], changes[row])
         for row, seed in enumerate(seeds)
     }
+
+
+def even_bins(of: Iterable[Curve], count: int) -> np.ndarray:
+    """Edges of bins of one width over the strain of the longest curve."""
+    return np.linspace(0.0, max(curve.strain[-1] for curve in of) * BEYOND, count + 1)
 
 
 def _rows(point: xr.Dataset, name: str, axis: str) -> np.ndarray:

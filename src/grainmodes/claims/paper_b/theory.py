@@ -19,7 +19,7 @@ from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
 from grainmodes.claims.estimates import Estimate, complete, mean, relative_difference
 from grainmodes.claims.paper_b.sheared import SAME, harmonic, over_samples, sheared
 from grainmodes.claims.samples import at
-from grainmodes.ensemble.curves import Curve
+from grainmodes.ensemble.curves import Curve, even_bins
 
 BINS = 10
 """Parts of the whole strain in which mean rigidities are compared."""
@@ -104,12 +104,9 @@ def mean_rigidity(ensemble) -> Outcome:
     """
     parts, notes = [], []
     for where, of in sheared(ensemble, "curve_g_xy"):
-        last = max(curve.strain[-1] for curve in of)
-        edges = np.linspace(0.0, last * (1.0 + 1e-9), BINS + 1)
-        theory, simulation = (
-            np.array([_binned(curve, rises, edges) for curve, rises in pairs])
-            for pairs in ([(c, c.predicted) for c in of], [(c, c.rise) for c in of])
-        )
+        edges = even_bins(of, BINS)
+        theory = np.array([curve.slopes(curve.predicted, edges) for curve in of])
+        simulation = np.array([curve.slopes(curve.rise, edges) for curve in of])
         for bin_, (low, high) in enumerate(pairwise(edges)):
             difference = relative_difference(simulation[:, bin_], theory[:, bin_])
             parts.append(
@@ -122,17 +119,6 @@ def mean_rigidity(ensemble) -> Outcome:
             f"{text(first)} in the first tenth to {text(final)} in the last."
         )
     return Outcome(parts, " ".join(notes))
-
-
-def _binned(curve: Curve, rises: np.ndarray, edges: np.ndarray) -> np.ndarray:
-    """Rise of the stress over the strain in every bin, of the steps without an event."""
-    kept = ~curve.event
-    bins = np.searchsorted(edges, curve.strain[:-1][kept], side="right") - 1
-    rise, strain = (
-        np.bincount(bins, of[kept], minlength=len(edges) - 1) for of in (rises, curve.step)
-    )
-    with np.errstate(invalid="ignore", divide="ignore"):
-        return rise / strain
 
 
 @claim("B10", unit="1")
