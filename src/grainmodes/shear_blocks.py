@@ -14,14 +14,19 @@ from typing import Protocol
 import numpy as np
 
 from grainmodes.dataset.files import Block
-from grainmodes.kernels.laws import interaction
-from grainmodes.packing import Packing
+from grainmodes.forces import is_frictionless
+from grainmodes.kernels.laws import Interaction, interaction
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear import Walk
-from grainmodes.protocols.sheared_state import Change, Event, Point
+from grainmodes.protocols.sheared_state import Change, Event, Point, reopened
+from grainmodes.relaxation.balance import Balance
 from grainmodes.rows import response_block
 from grainmodes.samples import jammed_packing, seed_of
+from grainmodes.stability import asymmetry, complex_pairs
+
+MOST_FOR_PAIRS = 1200
+"""Degrees of freedom up to which complex pairs are counted, in a second an event."""
 
 
 class Keeper(Protocol):
@@ -57,12 +62,15 @@ def shear_block(
 
 def row_of(walk: Walk) -> dict[str, object]:
     """All that was recorded on the way; not converged where it ended before the last strain."""
-    packing = walk.now.balance.packing
+    balance = walk.now.balance
+    packing, rule = balance.packing, balance.interaction
     still = {name: getattr(packing, name) for name in ("diameter", "mass", "box_length")}
     return {
         **still,
         **_curve(walk.curve),
-        **_events(walk.events),
+        **_events(walk.events, rule),
+        "last_asymmetry": asymmetry(balance.matrix),
+        "last_complex_pairs": _pairs(balance),
         **_changes(walk.changes),
         "jammed": True,
         "converged": walk.done,
@@ -87,7 +95,7 @@ def _curve(points: list[Point]) -> dict[str, object]:
     }
 
 
-def _events(events: list[Event]) -> dict[str, object]:
+def _events(events: list[Event], rule: Interaction) -> dict[str, object]:
     row: dict[str, object] = {"event_count": len(events)}
     if not events:
         return row
@@ -95,13 +103,25 @@ def _events(events: list[Event]) -> dict[str, object]:
         f"event_{name}": [getattr(e, name) for e in events] for name in ("kind", "opened", "closed")
     }
     row["event_displacement"] = np.stack([_three(e.displacement) for e in events])
+    row["event_reopened"] = [reopened(e.before, e.after) for e in events]
     for number, side in enumerate(("before", "after")):
-        row |= _side(side, [getattr(e, side) for e in events], [e.points[number] for e in events])
+        balances = [Balance.of(getattr(e, side), rule) for e in events]
+        row |= _side(side, balances, [e.points[number] for e in events])
+    row["event_complex_pairs_after"] = [_pairs(balance) for balance in balances]
     return row
 
 
-def _side(side: str, packings: list[Packing], points: list[Point]) -> dict[str, object]:
+def _pairs(balance: Balance) -> float:
+    """Complex pairs of eigenvalues of M⁻¹J; a symmetric J has none."""
+    if is_frictionless(balance.interaction):
+        return 0.0
+    few = balance.matrix.shape[0] <= MOST_FOR_PAIRS
+    return float(complex_pairs(balance.backbone, balance.interaction)) if few else np.nan
+
+
+def _side(side: str, balances: list[Balance], points: list[Point]) -> dict[str, object]:
     """What is kept of the states on one side of all events."""
+    packings = [balance.packing for balance in balances]
     symmetric = {
         name: [(of[0, 1] + of[1, 0]) / 2.0 for of in tensors]
         for name, tensors in (
@@ -113,6 +133,7 @@ def _side(side: str, packings: list[Packing], points: list[Point]) -> dict[str, 
         "strain": [p.strain for p in points],
         "energy": [p.energy for p in points],
         "lowest_eigenvalue": [p.lowest for p in points],
+        "asymmetry": [asymmetry(balance.matrix) for balance in balances],
         "fraction": np.stack([packing.fraction.T for packing in packings]),
     }
     if packings[0].rotation is not None:

@@ -41,6 +41,12 @@ def complex_pairs(packing: Packing, interaction: Interaction) -> int:
     return int(np.count_nonzero(values.imag > REAL))
 
 
+def asymmetry(matrix: sparse.csc_array) -> float:
+    """max|J − Jᵀ| / max|J|: B, App. D3, has none, without −(f_T/r) n tᵀ; 0 for an empty J."""
+    largest = abs(matrix).max() if matrix.nnz else 0.0
+    return float(abs(matrix - matrix.T).max() / largest) if largest else 0.0
+
+
 SMALL = 60
 """Degrees of freedom up to which the lowest eigenvalue is found densely."""
 

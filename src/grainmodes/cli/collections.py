@@ -29,7 +29,7 @@ def figure(arguments: Namespace) -> None:
     """An ensemble, or files of single samples → one figure."""
     from grainmodes.figures import draw
 
-    asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "fineness")}
+    asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "fineness", "seed")}
     options = {name: value for name, value in asked.items() if value is not None}
     draw(arguments.figure, _source(arguments), arguments.output, options)
 
@@ -48,13 +48,12 @@ def _source(arguments: Namespace) -> Path | list[Path]:
 def claims(arguments: Namespace) -> None:
     """An ensemble → the verdict on every claim."""
     from grainmodes.claims import check, report
-    from grainmodes.claims.paper_a import CLAIMS
     from grainmodes.ensemble import open_ensemble
 
     for path in arguments.outputs:
         report.form(path)
     with open_ensemble(arguments.ensemble) as opened:
-        verdicts = check(opened, CLAIMS)
+        verdicts = check(opened)
     for path in arguments.outputs:
         report.write(verdicts, path)
     if not arguments.outputs:

@@ -47,11 +47,18 @@ NAMES = {
     ),
     "event_opened": Variable(EVENT, "i8", "1", "contacts that opened in an event"),
     "event_closed": Variable(EVENT, "i8", "1", "contacts that closed in an event"),
+    "event_reopened": Variable(
+        EVENT, "i8", "1", "contacts that opened in an event and closed again"
+    ),
     **_sides("event_strain", Variable(EVENT, "f8", "1", "strain")),
     **_sides("event_stress", Variable(EVENT, "f8", MODULUS, "(sigma_xy + sigma_yx) / 2")),
     **_sides("event_g", Variable(EVENT, "f8", MODULUS, "(g_xy + g_yx) / 2")),
     **_sides("event_energy", Variable(EVENT, "f8", "k_N d^2", "energy stored in the contacts")),
     **_sides("event_lowest_eigenvalue", Variable(EVENT, "f8", MODULUS, "smallest eigenvalue")),
+    **_sides("event_asymmetry", Variable(EVENT, "f8", "1", "max |J - J^T| / max |J|")),
+    "event_complex_pairs_after": Variable(
+        EVENT, "f8", "1", "complex pairs of eigenvalues of J / M after an event; NaN: not counted"
+    ),
     **_sides("event_rotation", Variable(GRAINS, "f8", "d", "rotation l of every grain")),
     **_sides("event_fraction", Variable((*GRAINS, "axis"), "i8", "2^-64 L", "grain position")),
     **_sides("event_contact_i", Variable(CONTACTS, "i4", "1", "grain i of a contact; -1: none")),
@@ -59,6 +66,11 @@ NAMES = {
     **_sides("event_slip", Variable(CONTACTS, "f8", "d", "tangential displacement of a contact")),
     "event_displacement": Variable(
         (*GRAINS, "component"), "f8", "d", "displacement in an event, (x, y, l); its mean is 0"
+    ),
+    # the last state
+    "last_asymmetry": Variable(BLOCK, "f8", "1", "max |J - J^T| / max |J| of the last state"),
+    "last_complex_pairs": Variable(
+        BLOCK, "f8", "1", "complex pairs of the last state; NaN: not counted"
     ),
     # smaller changes
     "change_count": Variable(BLOCK, "i8", "1", "number of steps with a change"),

@@ -72,6 +72,13 @@ FIGURES = {
         "Density of states towards jamming (paper A, Fig. 16)",
         ("spectrum", "friction", "several_phi"),
     ),
+    "stress_strain": Figure(
+        "Stress against strain in one sample (paper B, Figs. 1, 8)", ("shear",)
+    ),
+    "rigidity_strain": Figure(
+        "Rigidity and smallest eigenvalue at small strain (paper B, Fig. 7)", ("shear",)
+    ),
+    "rigidity_mean": Figure("Mean rigidity against strain (paper B, Fig. 9)", ("shear",)),
     "event_states": Figure(
         "Lowest eigenvalue and rigidity around an event (paper B, Figs. 3 and 13)",
         ("close_up",),

@@ -15,10 +15,13 @@ from typing import NamedTuple
 import numpy as np
 
 from grainmodes.forces import energy, stress
-from grainmodes.packing import Packing, nonaffine_motion
+from grainmodes.packing import Packing, find_contacts, nonaffine_motion
 from grainmodes.relaxation.balance import Balance
 from grainmodes.rigidity import AffineStep, Moduli
 from grainmodes.stability import lowest_eigenvalue
+
+CURVED = 10.0
+"""What the path of a motion may add to s, in units of its square over d."""
 
 
 class Point(NamedTuple):
@@ -134,3 +137,32 @@ def network_changes(before: Balance, after: Balance) -> tuple[int, int]:
         return 0, 0
     same = len(np.intersect1d(old, new, assume_unique=True))
     return len(old) - same, len(new) - same
+
+
+def reopened(before: Packing, after: Packing) -> int:
+    """Contacts of both states that let go of their spring between them: they opened, and closed.
+
+    Such a spring starts anew from s = 0 and misses what the motion makes of the old one,
+    s + t·Δr + Δℓ with t at the middle. That is known to the square of the motion.
+    """
+    if before.history is None or after.history is None:
+        return 0
+    moved = nonaffine_motion(before, after)
+    contacts, old = find_contacts(after), before.history
+    s, known = contacts.displacement, _place(old.i, old.j, contacts.i, contacts.j, before.n)
+    both = known >= 0
+    i, j, s, known = contacts.i[both], contacts.j[both], s[both], known[both]
+    slip = moved[i] - moved[j]
+    along = np.einsum("ca,ca->c", slip[:, :2], contacts.tangent[both])
+    expected = old.tangential_displacement[known] + along + moved[i, 2] + moved[j, 2]
+    missing = np.abs(s - expected)
+    square = (np.abs(moved[i]) + np.abs(moved[j])).sum(axis=1) ** 2
+    lost = np.abs(old.tangential_displacement[known])
+    return int(np.count_nonzero((missing > 0.5 * lost) & (missing > CURVED * square)))
+
+
+def _place(i: np.ndarray, j: np.ndarray, of_i: np.ndarray, of_j: np.ndarray, n: int) -> np.ndarray:
+    """Where each pair (of_i, of_j) stands among the sorted pairs (i, j); -1: nowhere."""
+    pairs, wanted = i.astype(np.int64) * n + j, of_i.astype(np.int64) * n + of_j
+    place = np.minimum(np.searchsorted(pairs, wanted), len(pairs) - 1)
+    return np.where(pairs[place] == wanted, place, -1) if len(pairs) else place
