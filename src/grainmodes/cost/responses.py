@@ -18,14 +18,15 @@ COPIES = 3
 
 
 def responses(scene: Scene, table: Table, place: int) -> Iterator[Item]:
-    """The stages of the grid at this place of the scene, fields included."""
+    """The stages of the grid at this place of the scene, those of one sample included."""
     grid = scene.grids[place]
     sizes = [len(parse_seeds(block)) for block in seed_blocks(grid.seeds, scene.block)]
     for n in grid.n:
         for stage, points in _stages(grid, n).items():
             yield _response(scene, table, place, stage, points, sizes)
-        if grid.observables.fields:
-            yield _response(scene, table, place, "fields", _points(grid, n), [1])
+        for stage in ("fields", "close_up"):
+            if getattr(grid.observables, stage):
+                yield _response(scene, table, place, stage, _points(grid, n), [1])
 
 
 def _points(grid: Grid, n: int) -> list[Point]:
