@@ -25,7 +25,7 @@ from grainmodes.protocols.event_states import (
     simulated_rate,
     states_around,
 )
-from grainmodes.protocols.first_event import Bracket, bracketed, closer, steps
+from grainmodes.protocols.first_event import Bracket, brackets, closer, steps
 from grainmodes.protocols.shear import Walk
 from grainmodes.protocols.tangential_path import PathError, TangentialPath
 from grainmodes.rows import response_block
@@ -43,8 +43,8 @@ def close_up_block(packings: Block, law: ContactLaw, choices: Shear) -> Block:
         row = {"event_count": 0, "path_count": 0, "jammed": jammed, "converged": True}
         if not jammed:
             return row | _grains(packing)
-        *_, closest = brackets = [bracketed(packing, rule, of) for of in closer(choices)]
-        row |= _brackets(brackets) | _paths(packing, rule, closer(choices)[0])
+        *_, closest = found = brackets(packing, rule, choices)
+        row |= _brackets(found) | _paths(packing, rule, closer(choices)[0])
         if closest.event is None:
             return row | _grains(packing)
         return row | _event(closest, closer(choices)[-1])
@@ -59,18 +59,18 @@ def _grains(packing: Packing) -> dict[str, object]:
     return {name: getattr(packing, name) for name in names}
 
 
-def _brackets(brackets: list[Bracket]) -> dict[str, object]:
+def _brackets(found: list[Bracket]) -> dict[str, object]:
     """Every bracket with the curve around it."""
     sides = {f"{name}_{side}": np.nan for name in ("strain", "stress") for side in SIDES}
     columns = sides | {"kind": 0, "opened": 0, "closed": 0}
-    values = [columns | (_ends(b) if b.event else {}) for b in brackets]
+    values = [columns | (_ends(b) if b.event else {}) for b in found]
     row = {f"bracket_{name}": [value[name] for value in values] for name in columns}
-    longest = max(len(b.curve) for b in brackets)
-    strain, stress = (np.full((len(brackets), longest), np.nan) for _ in range(2))
-    for place, bracket in enumerate(brackets):
+    longest = max(len(b.curve) for b in found)
+    strain, stress = (np.full((len(found), longest), np.nan) for _ in range(2))
+    for place, bracket in enumerate(found):
         strain[place, : len(bracket.curve)] = [p.strain for p in bracket.curve]
         stress[place, : len(bracket.curve)] = [_mean(p.stress) for p in bracket.curve]
-    row["bracket_smallest_step"] = [b.smallest_step for b in brackets]
+    row["bracket_smallest_step"] = [b.smallest_step for b in found]
     return row | {"bracket_curve_strain": strain, "bracket_curve_stress": stress}
 
 

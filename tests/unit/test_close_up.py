@@ -22,7 +22,7 @@ from grainmodes.protocols.event_states import (
     simulated_rate,
     states_around,
 )
-from grainmodes.protocols.first_event import AROUND, Bracket, bracketed, closer, steps
+from grainmodes.protocols.first_event import AROUND, Bracket, bracketed, brackets, closer, steps
 from grainmodes.protocols.shear import Walk
 from grainmodes.protocols.tangential_path import TangentialPath, error
 from grainmodes.rows import block_of
@@ -41,9 +41,14 @@ def packing_of(law: ContactLaw):
 
 
 @cache
-def closest(law: ContactLaw, strain: float = 0.012) -> Bracket:
+def found(law: ContactLaw) -> list[Bracket]:
+    """The first event at every Δγ_Th."""
+    return brackets(packing_of(law), interaction(law), SMALL_STRAIN)
+
+
+def closest(law: ContactLaw) -> Bracket:
     """The first event at Δγ_Th = 1e-10."""
-    return bracketed(packing_of(law), interaction(law), closer(Shear(strain=strain))[-1])
+    return found(law)[-1]
 
 
 @cache
@@ -56,14 +61,25 @@ def block(law: ContactLaw, strain: float = 0.012) -> Block:
 
 
 def test_brackets_without_friction_lie_within_each_other():
-    law = LAWS[0]
-    found = [bracketed(packing_of(law), interaction(law), of) for of in closer(SMALL_STRAIN)]
-    for coarse, fine in pairwise(found):
+    of = found(LAWS[0])
+    for coarse, fine in pairwise(of):
         assert fine.before.strain > coarse.before.strain - 1e-13
         assert fine.after.strain < coarse.after.strain + 1e-13
-    widths = [b.after.strain - b.before.strain for b in found]
+    widths = [b.after.strain - b.before.strain for b in of]
     assert_allclose(widths, 10.0 ** -np.arange(4, 11), rtol=1e-5)
-    assert {b.event.kind for b in found} == {2}
+    assert {b.event.kind for b in of} == {2}
+
+
+@each_law
+def test_every_bracket_is_that_of_a_walk_of_its_own(law):
+    choices = closer(SMALL_STRAIN)[3]
+    alone = bracketed(Walk.start(packing_of(law), interaction(law), choices))
+    shared = found(law)[3]
+    for side in ("before", "after"):
+        one, other = getattr(alone, side), getattr(shared, side)
+        assert one.strain == pytest.approx(other.strain, rel=1e-14)
+        assert one.sigma == pytest.approx(other.sigma, rel=1e-10)
+    assert len(alone.curve) == len(shared.curve)
 
 
 @each_law
@@ -109,7 +125,7 @@ def test_a_fold_is_seen_as_one():
     law, choices = ContactLaw("hertz", "elastic", 1.0), Shear(0.11, 1e-3, 1e-7)
     walk = Walk.start(packing_of(law), interaction(law), choices)
     before, after = next(pair for pair in steps(walk) if walk.events)
-    fold = Bracket(choices.smallest_step, walk.curve, walk.events[0], before, after)
+    fold = Bracket(choices.smallest_step, before, walk.curve, walk.events[0], after)
     towards = [n.state for n in states_around(fold, choices) if -1e-4 < n.distance < -2e-7]
     ratios = [a.lowest / b.lowest for a, b in pairwise(towards)]
     assert_allclose(ratios, np.sqrt(10.0), rtol=0.1)
