@@ -7,7 +7,7 @@
 #   snakemake -j1 benchmarks                            a table of speeds
 #
 # trajectories -> packings -> {rigidity, step_strain, spectra, probes} -> points -> ensemble
-#                        \-> fields -> figures                   ensemble -> figures, claims
+#                        \-> fields, close_up -> figures         ensemble -> figures, claims
 
 
 include: "workflow/rules/common.smk"
@@ -26,5 +26,6 @@ rule all:
         ensemble=rules.ensemble.output,
         checks=rules.checks.output,
         claims=rules.claims.output,
-        fields=files_of("fields", scene.field_points),
+        fields=samples_of("fields"),
+        close_up=samples_of("close_up"),
         figures=figures(),

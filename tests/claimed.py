@@ -25,7 +25,7 @@ STRAINS = (1e-6, 1e-5, 1e-4)
 def ensemble() -> xr.Dataset:
     """The dataset, as `open_ensemble` would return it; every variable is writable."""
     coordinates = {"n": list(NS), "phi": list(PHIS), "kt": list(KTS), "seed": np.arange(SEEDS)}
-    dataset = xr.Dataset(coords=coordinates)
+    dataset = xr.Dataset(coords=coordinates, attrs={"config": "{}"})
     for build in (_samples, _moduli, _spectra, _rattlers, count_hessian, _probes):
         build(dataset)
     return dataset

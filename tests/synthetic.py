@@ -18,7 +18,7 @@ from grainmodes.parameters.grid import format_value
 
 JAMMING = 0.845
 STAGES = ("packings", "rigidity", "step_strain", "spectrum")
-WHOLE = (*STAGES, "spectrum_rattlers", "spectrum_hessian")
+WHOLE = (*STAGES, "spectrum_rattlers", "spectrum_hessian", "shear")
 
 
 def block(stage: str, n: int, phi: float, kt: float, seeds: range, /, **changes) -> Block:
@@ -163,6 +163,29 @@ def _spectrum_hessian(n, phi, kt, size, draws):
     }
 
 
+def _shear(n, phi, kt, size, draws):
+    """σ rises by 0.3 Δγ in steps of 1e-3 and falls by 1e-3 in an event in step 5, within 1e-5."""
+    if phi <= JAMMING:
+        return {"curve_count": np.zeros(size, int), "jammed": np.zeros(size, np.int8)}
+    strain = np.append(np.arange(11) * 1e-3, 4.01e-3 + np.array([0.0, 1e-5]))
+    strain.sort()
+    one, after = np.ones((size, 1)), strain > 4.015e-3
+    stress = one * (0.3 * strain - 1e-3 * after)
+    g = 0.3 * one * np.ones(len(strain))
+    return {
+        "curve_count": np.full(size, len(strain)),
+        "curve_strain": one * strain,
+        "curve_stress_xy": stress + 1e-4,
+        "curve_stress_yx": stress - 1e-4,
+        "curve_g_xy": g,
+        "curve_g_yx": g,
+        "curve_lowest_eigenvalue": one * (0.2 - 0.05 * after),
+        "event_strain_before": one * 4.01e-3,
+        "change_strain_before": one * 8e-3,
+        "jammed": np.ones(size, np.int8),
+    }
+
+
 def _in_bin(eigenvalue, edges):
     """Whether a mode lies in a bin: (samples, modes, bins)."""
     squared = edges**2
@@ -178,4 +201,5 @@ _VARIABLES = {
     "spectrum_bins": _spectrum_bins,
     "spectrum_rattlers": _spectrum_rattlers,
     "spectrum_hessian": _spectrum_hessian,
+    "shear": _shear,
 }

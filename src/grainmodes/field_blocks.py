@@ -23,8 +23,8 @@ from grainmodes.packing import Packing
 from grainmodes.parameters.fields import MOST_FOR_ALL_MODES
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
-from grainmodes.rows import attribute, response_block
-from grainmodes.samples import jammed_packing, seed_of
+from grainmodes.rows import response_block
+from grainmodes.samples import first_sample, jammed_packing
 
 
 def fields_block(
@@ -49,15 +49,7 @@ def fields_block(
         return row | _modes(packing, rule, frequencies, threshold)
 
     config = {"law": asdict(law), "rattlers": asdict(rattlers), "step_strain": asdict(step)}
-    return response_block(_first(packings), "fields", config, law, sample)
-
-
-def _first(packings: Block) -> Block:
-    """The block of its first sample alone."""
-    seed = str(seed_of(packings, 0))
-    failures = {key: text for key, text in attribute(packings, "failures").items() if key == seed}
-    rows = {name: array[:1] for name, array in packings.variables.items()}
-    return Block(rows, packings.attributes | {"failures": failures})
+    return response_block(first_sample(packings), "fields", config, law, sample)
 
 
 def _grains(packing: Packing) -> dict[str, object]:

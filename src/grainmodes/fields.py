@@ -24,9 +24,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from grainmodes.kernels.laws import Interaction
-from grainmodes.kernels.neighbours import RESOLUTION
 from grainmodes.modes import mode_sum
-from grainmodes.packing import Packing, find_contacts, rattlers
+from grainmodes.packing import Packing, find_contacts, nonaffine_motion, rattlers
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.step_strain import relaxed_steps
@@ -86,7 +85,7 @@ def simulated_field(
         if not step.converged:
             worst = max(step.max_force, step.max_torque)
             raise ArithmeticError(f"step strain: {worst:.1e} is left after {step.iterations} steps")
-    forward, backward = (_displacement(backbone, step.packing) for step in steps)
+    forward, backward = (nonaffine_motion(backbone, step.packing) for step in steps)
     u = (forward - backward) / (2.0 * protocol.strain)
     u[:, :2] -= u[:, :2].mean(axis=0)
     return _on_all(u, gone)
@@ -118,19 +117,6 @@ def _nearest(of: Problem, shift: float) -> tuple[float, np.ndarray]:
     (value,), vectors = windows.nearest(of.shift(), shift, 1)
     vector = vectors[:, 0]
     return value, vector * np.sign(vector[np.argmax(np.abs(vector))])
-
-
-def _displacement(before: Packing, after: Packing) -> np.ndarray:
-    """(Δr̊, Δℓ̊) of every grain between two states of a packing, exact in the fractions; (N, k).
-
-    r = L (s_x + γ s_y, s_y), of which the change of γ alone is the affine part.
-    """
-    x, y = (after.fraction - before.fraction) * (RESOLUTION * before.box_length)
-    moved = [x + after.strain * y, y]
-    if after.rotation is not None:
-        at_first = 0.0 if before.rotation is None else before.rotation
-        moved.append(after.rotation - at_first)
-    return np.stack(moved, axis=1)
 
 
 def _rattlers(packing: Packing, threshold: int) -> np.ndarray:

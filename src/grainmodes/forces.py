@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.kernels.contacts import contact_forces, normal_forces
+from grainmodes.kernels.energies import contact_energies
 from grainmodes.kernels.laws import Frictionless, Interaction
 from grainmodes.packing import Contacts, Packing
 
@@ -25,6 +26,12 @@ def forces_on_i(contacts: Contacts, interaction: Interaction) -> np.ndarray:
     if is_frictionless(interaction):
         return normal_forces(interaction, contacts.normal, contacts.overlap)
     return contact_forces(interaction, contacts.normal, contacts.overlap, contacts.displacement)
+
+
+def tangential_forces(interaction: Interaction, overlap: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """f_T of contacts with these overlaps and tangential displacements, (C,)."""
+    along_x = np.tile([1.0, 0.0], (len(s), 1))
+    return contact_forces(interaction, along_x, overlap, s)[:, 2]
 
 
 def net_force(packing: Packing, contacts: Contacts, interaction: Interaction) -> np.ndarray:
@@ -51,6 +58,11 @@ def stress(packing: Packing, contacts: Contacts, interaction: Interaction) -> np
     branch = contacts.normal * contacts.distance[:, None]
     forces = forces_on_i(contacts, interaction)[:, :2]
     return -(forces.T @ branch) / packing.box_length**2
+
+
+def energy(contacts: Contacts, interaction: Interaction) -> float:
+    """Energy stored in the contacts: see `kernels.energies`."""
+    return float(contact_energies(interaction, contacts.overlap, contacts.displacement).sum())
 
 
 def mean_contact_force(contacts: Contacts, interaction: Interaction) -> float:

@@ -16,6 +16,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from grainmodes.forces import is_frictionless
+from grainmodes.kernels.assembly import columns_of
 from grainmodes.kernels.contacts import contact_stiffness, normal_stiffness
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing import Contacts, Packing
@@ -43,16 +44,7 @@ def jacobian(packing: Packing, contacts: Contacts, interaction: Interaction) -> 
 
 
 def assemble(stiffness: np.ndarray, i: np.ndarray, j: np.ndarray, n: int) -> sparse.csc_array:
-    """The sparse matrix of contact stiffnesses (C, k, k) between grains i and j."""
+    """The sparse matrix of contact stiffnesses (C, k, k) between grains i > j sorted by (i, j)."""
     k = stiffness.shape[1]
-    rows, columns = SIGNS[:k, None], SIGNS[None, :k]
-    blocks = -np.concatenate(
-        [stiffness, stiffness * columns, stiffness * rows, stiffness * rows * columns]
-    )
-    left = np.concatenate([i, i, j, j]).astype(np.int32) * k
-    right = np.concatenate([i, j, i, j]).astype(np.int32) * k
-    within = np.arange(k, dtype=np.int32)
-    row = np.broadcast_to(left[:, None, None] + within[:, None], blocks.shape)
-    column = np.broadcast_to(right[:, None, None] + within[None, :], blocks.shape)
-    entries = (blocks.ravel(), (row.ravel(), column.ravel()))
-    return sparse.coo_array(entries, shape=(k * n, k * n)).tocsc()
+    entries = columns_of(stiffness, SIGNS[:k], i, j, n)
+    return sparse.csc_array(entries, shape=(k * n, k * n))

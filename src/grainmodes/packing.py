@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from grainmodes.box import PackingError, check_box, check_grains, to_fraction
-from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours
+from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours, matched, touching
 
 
 @dataclass(frozen=True)
@@ -46,6 +46,22 @@ class Contacts:
         """s of every contact, zero where friction was never loaded; shape (C,)."""
         s = self.tangential_displacement
         return np.zeros(len(self.i)) if s is None else s
+
+    def among(self, keep: np.ndarray) -> Contacts:
+        """The contacts between the grains of a (N,) mask, in their new numbers."""
+        if keep.all():
+            return self
+        held = keep[self.i] & keep[self.j]
+        number = np.cumsum(keep, dtype=np.int32) - 1
+        s = self.tangential_displacement
+        return Contacts(
+            number[self.i[held]],
+            number[self.j[held]],
+            self.normal[held],
+            self.distance[held],
+            self.overlap[held],
+            None if s is None else s[held],
+        )
 
 
 @dataclass(frozen=True)
@@ -169,6 +185,20 @@ class Packing:
         )
 
 
+def nonaffine_motion(before: Packing, after: Packing) -> np.ndarray:
+    """(Δr̊, Δℓ̊) of every grain between two states of a packing, exact in the fractions; (N, k) in d.
+
+    r = L (s_x + γ s_y, s_y), of which the change of γ alone is the affine part. Without rotation
+    k is 2.
+    """
+    x, y = (after.fraction - before.fraction) * (RESOLUTION * before.box_length)
+    moved = [x + after.strain * y, y]
+    if after.rotation is not None:
+        at_first = 0.0 if before.rotation is None else before.rotation
+        moved.append(after.rotation - at_first)
+    return np.stack(moved, axis=1)
+
+
 def find_contacts(packing: Packing) -> Contacts:
     """All touching pairs, r < (d_i + d_j)/2, with s from the history where there is one.
 
@@ -180,33 +210,14 @@ def find_contacts(packing: Packing) -> Contacts:
         return Contacts(nothing, nothing, np.zeros((0, 2)), np.zeros(0), np.zeros(0))
     x, y = packing.fraction
     pairs = find_neighbours(x, y, packing.diameter, packing.box_length, packing.strain, 0.0)
-    i, j = pairs.right.astype(np.int32), pairs.left.astype(np.int32)
-    order = np.lexsort((j, i))
-    i, j, reach = i[order], j[order], pairs.reach[order]
-    delta = (packing.fraction[:, i] - packing.fraction[:, j]) * (packing.box_length * RESOLUTION)
-    delta[0] += packing.strain * delta[1]
-    distance = np.sqrt(delta[0] ** 2 + delta[1] ** 2)
-    if np.any(distance == 0.0):
+    scale = packing.box_length * RESOLUTION
+    i, j, normal, distance, overlap = touching(x, y, pairs, scale, packing.strain)
+    if len(i) and distance.min() == 0.0:
         k = int(np.argmin(distance))
         raise PackingError(f"grains {i[k]} and {j[k]} lie at the same place: no normal is defined")
-    # The search compares squares: a pair at exactly its contact distance may slip in.
-    touch = distance < reach
-    i, j, distance, overlap = i[touch], j[touch], distance[touch], (reach - distance)[touch]
-    normal = (delta[:, touch] / distance).T
-    s = None if packing.history is None else _matched(packing.history, i, j, packing.n)
+    known = packing.history
+    s = known and matched(known.i, known.j, known.tangential_displacement, i, j)
     return Contacts(i, j, normal, distance, overlap, s)
-
-
-def _matched(history: History, i: np.ndarray, j: np.ndarray, n: int) -> np.ndarray:
-    """s of the contacts (i, j): that of the history, and 0 at first touch."""
-    keys = history.i.astype(np.int64) * n + history.j
-    wanted = i.astype(np.int64) * n + j
-    s = np.zeros(len(i))
-    if len(keys):
-        place = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
-        known = keys[place] == wanted
-        s[known] = history.tangential_displacement[place[known]]
-    return s
 
 
 def rattlers(contacts: Contacts, n: int, threshold: int) -> np.ndarray:

@@ -29,7 +29,8 @@ def block_of(
 
     Args:
         seeds: one row each, in this order.
-        sample: row number → values by name; raises one of `SAMPLE_ERRORS` where it fails.
+        sample: row number → values by name; raises one of `SAMPLE_ERRORS` where it fails, or adds
+            why under "failure" where it has values all the same.
         known_failures: seed → sentence of samples that failed in an earlier stage.
         attributes: what to write beside the code version and the failures.
     """
@@ -41,6 +42,8 @@ def block_of(
                 row = sample(number)
             except SAMPLE_ERRORS as error:
                 failures[str(seed)] = f"{type(error).__name__}: {error}"
+        if "failure" in row:
+            failures[str(seed)] = row.pop("failure")
         rows.append(row)
     variables = {"seed": np.array(seeds)} | _stacked(rows)
     described = {"code_version": code_version(), "failures": failures}

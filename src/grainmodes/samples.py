@@ -176,6 +176,14 @@ def jammed_packing(block: Block, number: int, interaction: Interaction) -> tuple
     return packing, is_jammed(packing, contacts, interaction, force)
 
 
+def first_sample(block: Block) -> Block:
+    """The block of its first sample alone."""
+    seed = str(seed_of(block, 0))
+    failures = {key: text for key, text in attribute(block, "failures").items() if key == seed}
+    rows = {name: array[:1] for name, array in block.variables.items()}
+    return Block(rows, block.attributes | {"failures": failures})
+
+
 def seed_of(block: Block, number: int) -> int:
     """The seed of a row."""
     return int(block.variables["seed"][number])

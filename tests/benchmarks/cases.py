@@ -24,7 +24,9 @@ from grainmodes.kernels.laws import Hertz, interaction
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import checkpoints_up_to, phi_at_step
 from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.compression import advanced, balanced, placed
+from grainmodes.protocols.shear import Walk
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
 from grainmodes.rigidity import rigidity
@@ -162,6 +164,37 @@ def all_pairs(n: int) -> float:
 def weakly_frictional(n: int):
     """The eigenproblem at φ = 0.90, k_T/k_N = 1e-4."""
     return problem(balanced_at(n, 0.9), interaction(ContactLaw(kt=1e-4)))
+
+
+HARMONIC = interaction(ContactLaw("harmonic", "elastic", 1.0))
+
+
+def harmonic_at(n: int, phi: float):
+    """A harmonic packing in final balance, from a Hertzian one."""
+    return relax_fast(balanced_at(n, phi), HARMONIC.normal, 1e-14, 10_000_000).packing
+
+
+def shear_by_newton(n: int) -> float:
+    """γ = 0 to 0.02, Δγ = 1e-4, Δγ_Th = 1e-8, harmonic, k_T = k_N, φ = 0.90."""
+    return cpu(_walk, harmonic_at(n, 0.9), Shear(0.02))
+
+
+def shear_by_dynamics(n: int) -> float:
+    """The same by B's damped dynamics alone, Δt = 0.01 t_0, to the same balance."""
+    return cpu(_walk, harmonic_at(n, 0.9), Shear(0.02, relaxation="damped", time_step=0.01))
+
+
+def shear_step(n: int) -> float:
+    """A step Δγ = 1e-4 without brackets, in ms."""
+    packing, steps = harmonic_at(n, 0.9), 50
+    _walk(packing, Shear(2e-4, 1e-4, 1e-4))
+    return 1e3 / steps * cpu(_walk, packing, Shear(steps * 1e-4, 1e-4, 1e-4))
+
+
+def _walk(packing, choices: Shear) -> None:
+    walk = Walk.start(packing, HARMONIC, choices)
+    while not walk.done and walk.advance():
+        pass
 
 
 def start_up(n: int) -> float:

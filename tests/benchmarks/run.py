@@ -16,6 +16,8 @@ from importlib.util import find_spec
 from multiprocessing import get_context
 from pathlib import Path
 
+import numpy as np
+
 from grainmodes.environment import prepare
 
 prepare()
@@ -37,6 +39,11 @@ CASES = (
     ("the same, SciPy alone", "density_of_states_superlu", 4096, 25.0, "s"),
     ("density of states on 160 edges", "density_of_states", 65536, 240.0, "s"),
     ("psi^R in 20 bins, with its error", "rotational_share", 65536, 120.0, "s"),
+    ("shear to 0.02, events bracketed to 1e-8", "shear_by_newton", 128, 0.5, "s"),
+    ("the same by damped dynamics", "shear_by_dynamics", 128, np.inf, "s"),
+    ("a step of shear", "shear_step", 128, np.inf, "ms"),
+    ("a step of shear", "shear_step", 1024, np.inf, "ms"),
+    ("a step of shear", "shear_step", 4096, np.inf, "ms"),
     ("start-up of a sample job", "start_up", 16, 1.0, "s"),
 )
 

@@ -17,6 +17,7 @@ import cases
 from cases import HERTZ, PROTOCOL
 
 from grainmodes.cli import main
+from grainmodes.cost.work import USUAL_STEP
 from grainmodes.dataset.files import read_block, write_block
 from grainmodes.parameters.grid import checkpoints_up_to
 from grainmodes.protocols.compression import advanced, placed
@@ -31,6 +32,9 @@ FEW = 64
 
 LOOSE = 1e-5
 """Largest force on a grain that a trajectory leaves at φ = 0.90: 1e-3 of the mean contact force."""
+
+SHEARED = 0.02
+"""Strain to which a shear is timed."""
 
 SPECTRA = {
     "dense_values": ("eigenvalues", "dense", "auto"),
@@ -99,7 +103,8 @@ def _balance(n: int) -> float:
 def _respond(work: str, n: int, folder: Path) -> float:
     """CPU seconds of the command of a response, its own processes included."""
     command = "spectrum" if work in SPECTRA else work.replace("_", "-")
-    words = [command, str(_packings(n, folder)), "--kt", str(KT)]
+    sheared = work == "shear"
+    words = [command, str(_packings(n, folder, sheared)), "--kt", str(1.0 if sheared else KT)]
     words += ["--settings", json.dumps(_settings(work)), "-o", str(_output(work, n, folder))]
     before = _used()
     if main(words):
@@ -108,6 +113,11 @@ def _respond(work: str, n: int, folder: Path) -> float:
 
 
 def _settings(work: str) -> dict:
+    if work == "shear":
+        return {
+            "contact_law": {"normal": "harmonic"},
+            "protocol": {"shear": {"strain": SHEARED}},
+        }
     if work not in SPECTRA:
         return {}
     kind, method, factorisation = SPECTRA[work]
@@ -122,7 +132,9 @@ def _used() -> float:
 
 
 def _units(work: str, output: Path) -> float:
-    """Modes of windows, edges of counts; else one sample."""
+    """Modes of windows, edges of counts, usual steps of a shear; else one sample."""
+    if work == "shear":
+        return SHEARED / USUAL_STEP
     names = {"window": "mode_count", "count": "bin_edge"}
     name = names.get(work.split("_")[0])
     if name is None:
@@ -135,12 +147,13 @@ def _output(work: str, n: int, folder: Path) -> Path:
     return folder / f"{work}-{n}.nc"
 
 
-def _packings(n: int, folder: Path) -> Path:
+def _packings(n: int, folder: Path, harmonic: bool) -> Path:
     """A file of one packing."""
-    path = folder / f"packings-{n}.nc"
+    path = folder / f"packings-{n}{'-harmonic' * harmonic}.nc"
     if not path.exists():
-        packing = cases.balanced_at(n, PHI)
+        packing = cases.harmonic_at(n, PHI) if harmonic else cases.balanced_at(n, PHI)
+        normal = cases.HARMONIC.normal if harmonic else HERTZ
         point = {"stage": "packings", "n": n, "phi": PHI}
-        row = packed(packing, HERTZ) | {"converged": True}
+        row = packed(packing, normal) | {"converged": True}
         write_block(path, block_of([0], lambda _: row, {}, point))
     return path

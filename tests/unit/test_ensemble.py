@@ -52,6 +52,19 @@ def test_merge_does_not_depend_on_the_order_of_the_files():
         assert_array_equal(array, backward.variables[name])
 
 
+def test_series_of_different_lengths_are_filled_up():
+    first, second = (synthetic.block("rigidity", 8, 0.9, 1.0, range(s, s + 1)) for s in (0, 1))
+    for block, length in ((first, 3), (second, 5)):
+        block.variables["curve_strain"] = np.arange(length, dtype=float)[None]
+        block.variables["event_kind"] = np.ones((1, length), np.int8)
+    for order in ({"a": first, "b": second}, {"b": second, "a": first}):
+        merged = merge_blocks(order).variables
+        np.testing.assert_array_equal(
+            merged["curve_strain"], [[0, 1, 2, np.nan, np.nan], [0, 1, 2, 3, 4]]
+        )
+        np.testing.assert_array_equal(merged["event_kind"], [[1, 1, 1, 0, 0], [1, 1, 1, 1, 1]])
+
+
 def test_converged_is_true_only_where_every_observable_is():
     merged = merge_blocks(
         {

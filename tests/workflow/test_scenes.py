@@ -34,17 +34,25 @@ def test_only_eigenvalues(fresh):
 
 
 def test_every_observable(fresh):
-    asked = ["rattlers", "hessian", "fields", "probes"]
+    asked = ["rattlers", "hessian", "fields", "probes", "close_up"]
     fresh.write_scene(scene_of(dict.fromkeys(asked, True) | {"spectrum": "eigenvalues"}))
     plan = fresh.run("-n", "-p")
     jobs = jobs_in(plan)
-    for stage in ("spectrum", "spectrum_rattlers", "spectrum_hessian", "probes", "fields"):
+    for stage in (
+        "spectrum",
+        "spectrum_rattlers",
+        "spectrum_hessian",
+        "probes",
+        "fields",
+        "close_up",
+    ):
         assert jobs[stage] == 4
     assert "--variant rattlers" in plan
     assert "--variant hessian" in plan
     (gather,) = re.findall(r"grainmodes gather .*phi~0.85/kt~1.0.nc", plan)
     assert "spectrum_hessian/" in gather
     assert "fields/" not in gather
+    assert "close_up/" not in gather
 
 
 def test_grids_get_what_they_ask_for(fresh):

@@ -1,11 +1,11 @@
-# The ensemble -> a verdict on every claim of paper A, as a page and as a table.
+# The ensemble -> a verdict on every claim of the papers, as a page and as a table.
 
 
 rule claims:
     input:
         ensemble=rules.ensemble.output,
         code=sources(
-            "grainmodes.claims.paper_a",
+            "grainmodes.claims",
             "grainmodes.claims.report",
             "grainmodes.ensemble:open_ensemble",
         ),
@@ -13,6 +13,6 @@ rule claims:
         page=f"{STUDY}/claims.md",
         table=f"{STUDY}/claims.csv",
     message:
-        "Check the claims of paper A."
+        "Check the claims of the papers."
     shell:
         "grainmodes claims {input.ensemble} -o {output.page} {output.table}"

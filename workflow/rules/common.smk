@@ -59,10 +59,9 @@ def sources_of_figure(wildcards):
 
 
 def data_of_figure(wildcards):
-    """What a figure is drawn from: the ensemble, or the fields of every point that has them."""
-    if FIGURES[wildcards.figure].source == "fields":
-        return files_of("fields", scene.field_points)
-    return rules.ensemble.output
+    """What a figure is drawn from: the ensemble, or a stage's files of single samples."""
+    source = FIGURES[wildcards.figure].source
+    return rules.ensemble.output if source == "ensemble" else samples_of(source)
 
 
 def checkpoint_below(wildcards):
@@ -109,6 +108,12 @@ def files_of(room, points):
     """One file in a room of the study for each of these points."""
     names = ({key: format_value(value) for key, value in vars(p).items()} for p in points)
     return [f"{STUDY}/{room}/{POINT}".format(**name) for name in names]
+
+
+def samples_of(stage):
+    """The files of a stage that keeps one sample of every point that asks for it."""
+    points = {"fields": scene.field_points, "close_up": scene.close_up_points}
+    return files_of(stage, points[stage])
 
 
 def figures():

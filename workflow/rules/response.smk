@@ -1,4 +1,4 @@
-# Packings -> rigidity in theory and simulation, spectra, fields, probes, each for one k_T.
+# Packings -> rigidity in theory and simulation, spectra, shear, fields, each for one k_T.
 
 
 rule rigidity:
@@ -92,6 +92,21 @@ rule probes:
         " --settings {params.settings:q} -o {output}"
 
 
+rule shear:
+    input:
+        packings=f"{STUDY}/packings/{BLOCK}",
+        code=sources("grainmodes.shear_blocks:shear_block", "grainmodes.cli.keeping"),
+    output:
+        f"{STUDY}/shear/{RESPONSE}",
+    params:
+        settings=scene.settings("shear"),
+    message:
+        f"Shear at {AT}."
+    shell:
+        "grainmodes shear {input.packings} --kt {wildcards.kt}"
+        " --settings {params.settings:q} -o {output}"
+
+
 rule fields:
     input:
         packings=first_packings,
@@ -104,4 +119,19 @@ rule fields:
         "Fields at n = {wildcards.n}, phi = {wildcards.phi}, k_T = {wildcards.kt}."
     shell:
         "grainmodes fields {input.packings} --kt {wildcards.kt}"
+        " --settings {params.settings:q} -o {output}"
+
+
+rule close_up:
+    input:
+        packings=first_packings,
+        code=sources("grainmodes.close_up_blocks:close_up_block"),
+    output:
+        f"{STUDY}/close_up/{POINT}",
+    params:
+        settings=scene.settings("close_up"),
+    message:
+        "First event at n = {wildcards.n}, phi = {wildcards.phi}, k_T = {wildcards.kt}."
+    shell:
+        "grainmodes close-up {input.packings} --kt {wildcards.kt}"
         " --settings {params.settings:q} -o {output}"

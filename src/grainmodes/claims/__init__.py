@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from grainmodes.claims import paper_a, paper_b
 from grainmodes.claims.claim import Claim, Verdict
 
+CLAIMS: tuple[Claim, ...] = (*paper_a.CLAIMS, *paper_b.CLAIMS)
+"""A1 to A19, then B1 to B10."""
 
-def check(ensemble, claims: tuple[Claim, ...]) -> list[Verdict]:
+
+def check(ensemble, claims: tuple[Claim, ...] = CLAIMS) -> list[Verdict]:
     """The verdict on every claim, in their order.
 
     Args:
         ensemble: dataset of `grainmodes.ensemble.open_ensemble`; claims whose observables or
             points it lacks are "not asked".
-        claims: those of a paper, such as `paper_a.CLAIMS`.
+        claims: all, or those of a paper, such as `paper_a.CLAIMS`.
     """
     return [claim(ensemble) for claim in claims]

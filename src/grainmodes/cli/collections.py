@@ -26,17 +26,17 @@ def ensemble(arguments: Namespace) -> None:
 
 
 def figure(arguments: Namespace) -> None:
-    """An ensemble, or fields → one figure."""
+    """An ensemble, or files of single samples → one figure."""
     from grainmodes.figures import draw
 
-    asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "fineness")}
+    asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "fineness", "seed")}
     options = {name: value for name, value in asked.items() if value is not None}
     draw(arguments.figure, _source(arguments), arguments.output, options)
 
 
 def _source(arguments: Namespace) -> Path | list[Path]:
-    """What the figure is drawn from: files of fields, or one ensemble."""
-    if FIGURES[arguments.figure].source == "fields":
+    """What the figure is drawn from: files of single samples, or one ensemble."""
+    if FIGURES[arguments.figure].source != "ensemble":
         return arguments.data
     if len(arguments.data) > 1:
         raise ValueError(
@@ -48,13 +48,12 @@ def _source(arguments: Namespace) -> Path | list[Path]:
 def claims(arguments: Namespace) -> None:
     """An ensemble → the verdict on every claim."""
     from grainmodes.claims import check, report
-    from grainmodes.claims.paper_a import CLAIMS
     from grainmodes.ensemble import open_ensemble
 
     for path in arguments.outputs:
         report.form(path)
     with open_ensemble(arguments.ensemble) as opened:
-        verdicts = check(opened, CLAIMS)
+        verdicts = check(opened)
     for path in arguments.outputs:
         report.write(verdicts, path)
     if not arguments.outputs:

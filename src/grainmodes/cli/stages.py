@@ -115,6 +115,31 @@ def fields(arguments: Namespace) -> None:
     write_block(arguments.output, block)
 
 
+def shear(arguments: Namespace) -> None:
+    """Packings → their curves of stress and strain, and their events."""
+    from grainmodes.cli.keeping import Keeping
+    from grainmodes.shear_blocks import shear_block
+
+    scene = _scene(arguments.settings, kt=arguments.kt)
+    law, choices = scene.law_at(arguments.kt), scene.protocol.shear
+    keeping = Keeping(arguments.output, (law, choices), arguments.keep_every)
+    with _opened(arguments.packings, "packings") as packings:
+        block = shear_block(packings, law, choices, keeping)
+    write_block(arguments.output, block)
+    keeping.forget()
+
+
+def close_up(arguments: Namespace) -> None:
+    """Packings → the first event of the first of them, looked at closely."""
+    from grainmodes.close_up_blocks import close_up_block
+
+    scene = _scene(arguments.settings, kt=arguments.kt)
+    law = scene.law_at(arguments.kt)
+    with _opened(arguments.packings, "packings") as packings:
+        block = close_up_block(packings, law, scene.protocol.shear)
+    write_block(arguments.output, block)
+
+
 def point(arguments: Namespace) -> None:
     """Everything of one point, without files between."""
     from grainmodes.point import point_block

@@ -22,6 +22,8 @@ class Observables:
     hessian: bool = False
     fields: bool = False
     probes: bool = False
+    shear: bool = False
+    close_up: bool = False
 
     @property
     def words(self) -> set[str]:
@@ -33,6 +35,8 @@ class Observables:
             "rattlers": self.rattlers,
             "hessian": self.hessian,
             "fields": self.fields,
+            "shear": self.shear,
+            "close_up": self.close_up,
         }
         return {word for word, here in offered.items() if here}
 
@@ -68,7 +72,7 @@ class Grid:
         return point.n in self.n and point.phi in self.phi and point.kt in self.kt
 
     def stages(self, kt: float) -> list[str]:
-        """Stages that a point with this k_T asks for, beside its packings and fields.
+        """Stages that a point with this k_T asks for, beside packings and single samples.
 
         Without rotation the effective Hessian is J, and there is nothing to probe.
         """
@@ -80,6 +84,7 @@ class Grid:
             "spectrum_rattlers": asked.rattlers,
             "spectrum_hessian": asked.hessian and kt > 0.0,
             "probes": asked.probes and kt > 0.0,
+            "shear": asked.shear,
         }
         return [stage for stage, here in wanted.items() if here]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from grainmodes.configuration.grid_rules import grid_conflicts
@@ -15,7 +16,7 @@ def conflicts(config: dict) -> Iterator[str]:
     """One sentence per conflict in a complete configuration that satisfies the schema."""
     found = list(grid_conflicts(config))
     yield from found
-    for rule in (_coulomb, _damped, _steps):
+    for rule in (_coulomb, _damped, _steps, _shear):
         yield from rule(config)
     if not found:
         yield from _figures(config)
@@ -60,6 +61,18 @@ def _steps(config: dict) -> Iterator[str]:
         )
 
 
+def _shear(config: dict) -> Iterator[str]:
+    shear = config["protocol"]["shear"]
+    strain, step, smallest = shear["strain"], shear["step"], shear["smallest_step"]
+    if not _whole(strain / step):
+        yield f"protocol.shear.strain = {strain}: allowed are whole numbers of steps of {step}"
+    if step < smallest or not _whole(math.log10(step / smallest)):
+        yield (
+            f"protocol.shear.smallest_step = {smallest}: allowed are {step} and a tenth, "
+            "a hundredth and so on of it"
+        )
+
+
 def _figures(config: dict) -> Iterator[str]:
     grids = [Grid.of(grid) for grid in config["grids"]]
     for name in config.get("figures", []):
@@ -77,6 +90,8 @@ NEEDED = {
     "rattlers": "observables.rattlers: true",
     "hessian": "observables.hessian: true",
     "fields": "observables.fields: true",
+    "shear": "observables.shear: true",
+    "close_up": "observables.close_up: true",
     "friction": "these observables at a kt above 0",
     "frictionless": "these observables at kt = 0",
     "all_modes": f"these observables at an n of at most {MOST_FOR_ALL_MODES}",

@@ -11,7 +11,7 @@ from grainmodes.parameters.grid import Point, seed_blocks
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.spectra import SpectrumChoices
-from grainmodes.parameters.strain import StepStrain
+from grainmodes.parameters.strain import Shear, StepStrain
 
 
 @dataclass(frozen=True)
@@ -41,6 +41,7 @@ class Scene:
             protocol=Protocol(
                 Compression(**protocol["compression"]),
                 StepStrain(**protocol["step_strain"]),
+                Shear(**protocol["shear"]),
                 Rattlers(**protocol["rattlers"]),
                 SpectrumChoices(**protocol["spectrum"]),
             ),
@@ -56,6 +57,16 @@ class Scene:
     def field_points(self) -> list[Point]:
         """The points of the grids that ask for fields."""
         return [point for grid in self.grids if grid.observables.fields for point in grid.points]
+
+    @property
+    def shear_points(self) -> list[Point]:
+        """The points of the grids that ask for shear."""
+        return [point for grid in self.grids if grid.observables.shear for point in grid.points]
+
+    @property
+    def close_up_points(self) -> list[Point]:
+        """The points of the grids that ask for a close-up."""
+        return [point for grid in self.grids if grid.observables.close_up for point in grid.points]
 
     def grid_at(self, n: int, phi: float, kt: float) -> Grid:
         """The grid of a point; the first for a point off the grids."""
@@ -97,6 +108,8 @@ class Scene:
             "spectrum_hessian": spectrum,
             "fields": _part(law, protocol, "rattlers", "step_strain"),
             "probes": _part(law, protocol, "rattlers", "step_strain"),
+            "shear": _part(law, protocol, "shear"),
+            "close_up": _part(law, protocol, "shear"),
             "ensemble": _part(law, protocol, *protocol) | {"study": self.study},
         }
         return json.dumps(parts[stage], sort_keys=True)

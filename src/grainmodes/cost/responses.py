@@ -18,14 +18,15 @@ COPIES = 3
 
 
 def responses(scene: Scene, table: Table, place: int) -> Iterator[Item]:
-    """The stages of the grid at this place of the scene, fields included."""
+    """The stages of the grid at this place of the scene, those of one sample included."""
     grid = scene.grids[place]
     sizes = [len(parse_seeds(block)) for block in seed_blocks(grid.seeds, scene.block)]
     for n in grid.n:
         for stage, points in _stages(grid, n).items():
             yield _response(scene, table, place, stage, points, sizes)
-        if grid.observables.fields:
-            yield _response(scene, table, place, "fields", _points(grid, n), [1])
+        for stage in ("fields", "close_up"):
+            if getattr(grid.observables, stage):
+                yield _response(scene, table, place, stage, _points(grid, n), [1])
 
 
 def _points(grid: Grid, n: int) -> list[Point]:
@@ -45,10 +46,10 @@ def _response(
     scene: Scene, table: Table, place: int, stage: str, points: list[Point], sizes: list[int]
 ) -> Item:
     """A stage at some points, each in blocks of so many samples."""
-    kind, choices = scene.grids[place].observables.spectrum, scene.protocol.spectrum
+    kind = scene.grids[place].observables.spectrum
     used, chains = set(), []
     for point in points:
-        units = work(stage, kind, point.n, point.kt, choices, table)
+        units = work(stage, kind, point.n, point.kt, scene.protocol, table)
         seconds = sum(times * table.laws[name].seconds_at(point.n) for name, times in units.items())
         disk = _stored(stage, kind, point, table)
         chains += [[Job(size, size * seconds, size * disk)] for size in sizes]

@@ -3,7 +3,7 @@
 Spectra follow the rules by which the stages choose a method: LAPACK up to a size; beyond, counts
 at the edges of bins, or windows of eigenpairs. ψ^R of a bin is counted in `substeps` cells: each at
 its end on the diagonal and at two corners, and pairs of cells once more at two, four counts a cell.
-p takes the eigenpairs of a bin, at most `modes_per_bin`.
+p takes the eigenpairs of a bin, at most `modes_per_bin`. A shear is priced per step of 1e-4.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from grainmodes.binning import (
 )
 from grainmodes.cost.table import Table
 from grainmodes.parameters.factors import PARDISO_FROM
+from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.spectra import (
     BINNED,
     DENSE_BINS_UP_TO,
@@ -25,9 +26,12 @@ from grainmodes.parameters.spectra import (
     SpectrumChoices,
 )
 
+USUAL_STEP = 1e-4
+"""The step of strain in which a shear is priced, with the brackets of its events."""
+
 
 def work(
-    stage: str, kind: str, n: int, kt: float, choices: SpectrumChoices, table: Table
+    stage: str, kind: str, n: int, kt: float, protocol: Protocol, table: Table
 ) -> dict[str, float]:
     """Units of work of a stage on one sample of n grains.
 
@@ -36,11 +40,14 @@ def work(
         kind: of the spectrum at this point.
         kt: k_T / k_N; at 0 there is no rotation and no band of it.
     """
+    choices = protocol.spectrum
     if stage == "spectrum_hessian":
         once = _spectrum("counts", n, kt, choices, table)
         return {name: 2 * units for name, units in once.items()}
     if stage.startswith("spectrum"):
         return _spectrum(kind, n, kt, choices, table)
+    if stage == "shear":
+        return {"shear": protocol.shear.strain / USUAL_STEP}
     return {stage: 1}
 
 

@@ -5,12 +5,20 @@
 
 from __future__ import annotations
 
-from grainmodes.dataset import fields, packing, probes, rigidity, spectrum
+from grainmodes.dataset import (
+    close_up,
+    fields,
+    packing,
+    probes,
+    rigidity,
+    shear,
+    spectrum,
+)
 from grainmodes.dataset.variable import Variable
 
 VARIABLES: dict[str, Variable] = {
     name: row
-    for theme in (packing, rigidity, spectrum, probes, fields)
+    for theme in (packing, rigidity, spectrum, probes, fields, shear, close_up)
     for name, row in theme.NAMES.items()
 }
 """Every name that a block or an ensemble may hold."""

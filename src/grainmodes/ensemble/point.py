@@ -1,8 +1,8 @@
 """All blocks of seeds and all observables of one point (n, phi, k_T), merged sample by sample.
 
 Each seed that stands in any block becomes one row, in the order of the seeds. A number is kept if
-there is one, or one per mode, bin or step strain, in a sample; coordinates of grains stay in the
-packings.
+there is one, or one per mode, bin, step strain, state or event, in a sample; coordinates of grains
+stay in the packings and in the files of their shear.
 A sample is converged when every observable of the point has it converged; a seed that an
 observable lacks has there NaN (integers: 0), hence also converged = 0. Where two observables hold
 a name both, the first in the order of `STAGES` wins.
@@ -26,10 +26,13 @@ STAGES = (
     "spectrum_rattlers",
     "spectrum_hessian",
     "probes",
+    "shear",
 )
 """Values of the attribute `stage`, in the order in which names win."""
 
-PER_SAMPLE = (("seed",), *(("seed", name) for name in ("mode", "edge", "bin", "probe")))
+SERIES = ("mode", "edge", "bin", "probe", "state", "event", "change")
+
+PER_SAMPLE = (("seed",), *(("seed", name) for name in SERIES))
 """Dimensions of the variables that a point keeps."""
 
 
@@ -86,16 +89,27 @@ def _in_seed_order(stage: str, members: dict[str, Block]) -> dict[str, Block]:
 
 
 def _aligned(members: dict[str, Block], seeds: np.ndarray) -> dict[str, np.ndarray]:
-    """The variables of one observable, one row per seed of the point."""
-    rows: dict[str, np.ndarray] = {}
+    """The variables of one observable, one row per seed of the point.
+
+    A series is as long as that of the sample that has most; the others are filled up.
+    """
+    found: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {}
     for block in members.values():
         place = np.searchsorted(seeds, block.variables["seed"])
         for name, array in block.variables.items():
             if name != "seed" and VARIABLES[name].dimensions in PER_SAMPLE:
-                empty = np.nan if array.dtype.kind == "f" else 0
-                shape = (len(seeds), *array.shape[1:])
-                rows.setdefault(name, np.full(shape, empty, array.dtype))[place] = array
-    return rows
+                found.setdefault(name, []).append((place, array))
+    return {name: _together(parts, len(seeds)) for name, parts in found.items()}
+
+
+def _together(parts: list[tuple[np.ndarray, np.ndarray]], size: int) -> np.ndarray:
+    """Rows of several blocks, each (place, array), as one array."""
+    lengths = np.max([array.shape[1:] for _, array in parts], axis=0).astype(int)
+    dtype = parts[0][1].dtype
+    whole = np.full((size, *lengths), np.nan if dtype.kind == "f" else 0, dtype)
+    for place, array in parts:
+        whole[(place, *map(slice, array.shape[1:]))] = array
+    return whole
 
 
 def _attributes(blocks: dict[str, Block], stages: dict[str, dict[str, Block]]) -> dict[str, object]:

@@ -1,4 +1,4 @@
-"""All points of a study in one file: dimensions n, phi, kt, seed, then mode, or edge, bin, probe.
+"""All points of a study in one file: dimensions n, phi, kt, seed, then that of a series.
 
 Points are written one after the other, so the memory needed is that of one point whatever the size
 of the study; a spectrum is one chunk. What a point lacks, or a point that the grid lacks, is NaN;

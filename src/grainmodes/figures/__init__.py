@@ -6,7 +6,7 @@ A figure is a module of this package of the name in `parameters.figures.FIGURES`
     table(source, options)       the plotted numbers, a pure function
     draw(figure, table)          the picture of these numbers and of nothing else
 
-Its source is the ensemble, or the fields of single samples: a list of blocks.
+Its source is the ensemble, or the files of single samples: a list of blocks.
 
 Modules are imported by name when they are drawn, so that an edit of one touches that figure only.
 """
@@ -39,8 +39,8 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
 
     Args:
         name: a key of `parameters.figures.FIGURES`.
-        data: file of `write_ensemble`; a list of files of `grainmodes fields`, where the figure's
-            source are fields.
+        data: file of `write_ensemble`; a list of files, where the figure's source is a stage that
+            keeps single samples.
         out_stem: path without suffix.
         options: keys of `selection.Options`; {} for the choices of the paper.
 
@@ -67,8 +67,9 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
 @contextmanager
 def _opened(name: str, data: str | Path | list[Path]) -> Iterator:
     """What a figure is drawn from."""
-    if FIGURES[name].source == "fields":
-        yield field_rows.read(data)
+    source = FIGURES[name].source
+    if source != "ensemble":
+        yield field_rows.read(data, source)
     else:
         with open_ensemble(data) as ensemble:
             yield ensemble

@@ -1,4 +1,5 @@
-"""Rows of the figures of single samples: one per grain, from the files of `grainmodes fields`."""
+"""Rows of the figures of single samples: one per grain, from the files of `grainmodes fields` and
+`grainmodes close-up`."""
 
 from __future__ import annotations
 
@@ -25,6 +26,9 @@ GRAINS = {
 }
 """Columns that say which grain a row is about."""
 
+NAMES = {"fields": "fields", "close_up": "close-ups"}
+"""Stages that keep the grains of single samples, and what their files hold."""
+
 COMPONENTS = ("x", "y", "rotation")
 """Names of the components (x, y, ℓ), ℓ = d θ / 2."""
 
@@ -35,8 +39,8 @@ def described(prefix: str, unit: str, meaning: str) -> dict[str, tuple[str, str]
     return {f"{prefix}_{name}": (unit, f"{meaning}, {words}") for name, words in named}
 
 
-def read(paths: list[str | Path]) -> list[Block]:
-    """The files of single samples.
+def read(paths: list[str | Path], needed: str = "fields") -> list[Block]:
+    """The files of single samples that a stage made.
 
     Raises:
         BlockError: a file is not readable, holds something else, or a point that another holds.
@@ -45,8 +49,8 @@ def read(paths: list[str | Path]) -> list[Block]:
     for path in paths:
         block = read_block(path)
         stage = block.attributes.get("stage", "something else")
-        if stage != "fields":
-            raise BlockError(f"{path}: holds {stage}, needed here are fields")
+        if stage != needed:
+            raise BlockError(f"{path}: holds {stage}, needed here are {NAMES[needed]}")
         point = tuple(block.attributes[name] for name in ("n", "phi", "kt"))
         if point in found:
             raise BlockError(f"{path}: its n, phi and kt also stand in {found[point][0]}")

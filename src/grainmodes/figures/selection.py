@@ -25,6 +25,7 @@ class Options:
 
     `n`, `phi`: the value shown by figures that show one; None is the largest of the ensemble.
     `kt`: the values of k_T/k_N to show; None is the figure's own choice.
+    `seed`: the sample shown by figures that show one; None is the first.
     `fineness`: factor on the numbers of linear bins of A's spectra (500 and 100), below 1 where an
     ensemble has too few modes for them; None is the choice of the study. Spectra that were counted
     in bins keep these.
@@ -34,6 +35,7 @@ class Options:
     phi: float | None = None
     kt: tuple[float, ...] | None = None
     fineness: float | None = None
+    seed: int | None = None
 
     @classmethod
     def read(cls, figure: str, given: dict) -> Options:
@@ -61,6 +63,15 @@ def largest_or(asked: float | None, values: np.ndarray, name: str) -> float:
         ValueError: the value asked for is none of `values`, the error calls it `name`.
     """
     return values.max().item() if asked is None else _existing(asked, values, name)
+
+
+def first_or(asked: int | None, values: np.ndarray, name: str) -> int:
+    """The value that is asked for, or the smallest.
+
+    Raises:
+        ValueError: as `largest_or`.
+    """
+    return values.min().item() if asked is None else _existing(asked, values, name)
 
 
 def curves(asked: tuple[float, ...] | None, values: np.ndarray, name: str) -> list[float]:

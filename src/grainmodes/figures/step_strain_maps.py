@@ -38,7 +38,11 @@ def _displacements(block: Block, variables: dict[str, str]) -> pd.DataFrame:
 
 
 def draw_pair(
-    figure: Figure, table: pd.DataFrame, titles: dict[str, str], scales: dict[str, Scale]
+    figure: Figure,
+    table: pd.DataFrame,
+    titles: dict[str, str],
+    scales: dict[str, Scale],
+    note: str = "arrows: displacement per unit strain",
 ) -> None:
     """Two maps and the colour bar of the second.
 
@@ -53,4 +57,4 @@ def draw_pair(
         appearance.name_panel(axes, index, title)
         axes.label_outer()
     add_colour_bar(figure, list(panels), scale, r"$d\mathring{\ell}/d\gamma$  $(d)$")
-    write_caption(figure, table, "arrows: displacement per unit strain")
+    write_caption(figure, table, note)

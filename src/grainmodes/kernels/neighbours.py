@@ -16,6 +16,7 @@ rounding never grows with L, which is what lets max|F| fall below 1e-14 at every
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -148,3 +149,45 @@ def left_of(first):
     for i in range(first.shape[0] - 1):
         left[first[i] : first[i + 1]] = i
     return left
+
+
+@kernel
+def touching(x, y, pairs, scale, strain):
+    """The pairs of a list that touch, as i > j sorted by (i, j).
+
+    Returns: i, j (C,) int32; normal (C, 2) from j to i, distance (C,), overlap (C,) in d.
+    """
+    n = x.shape[0]
+    start = np.zeros(n + 1, np.int64)
+    for pair in range(pairs.left.shape[0]):
+        dx, dy = separation(x, y, pairs.right[pair], pairs.left[pair], scale, strain)
+        start[pairs.right[pair] + 1] += math.sqrt(dx * dx + dy * dy) < pairs.reach[pair]
+    for i in range(n):
+        start[i + 1] += start[i]
+    size = start[n]
+    i, j = np.empty(size, np.int32), np.empty(size, np.int32)
+    normal, distance, overlap = np.empty((size, 2)), np.empty(size), np.empty(size)
+    # The list is sorted by its left grain: filling it in by the right one sorts by both.
+    for pair in range(pairs.left.shape[0]):
+        high, low = pairs.right[pair], pairs.left[pair]
+        dx, dy = separation(x, y, high, low, scale, strain)
+        length = math.sqrt(dx * dx + dy * dy)
+        if length < pairs.reach[pair]:
+            c = start[high]
+            start[high] += 1
+            i[c], j[c], distance[c], overlap[c] = high, low, length, pairs.reach[pair] - length
+            normal[c, 0], normal[c, 1] = dx / length, dy / length
+    return i, j, normal, distance, overlap
+
+
+@kernel
+def matched(key_i, key_j, value, i, j):
+    """The value of every pair (i, j), 0 where it is not among the keys; both sorted by (i, j)."""
+    found = np.zeros(i.shape[0])
+    k = 0
+    for c in range(i.shape[0]):
+        while k < key_i.shape[0] and (key_i[k] < i[c] or (key_i[k] == i[c] and key_j[k] < j[c])):
+            k += 1
+        if k < key_i.shape[0] and key_i[k] == i[c] and key_j[k] == j[c]:
+            found[c] = value[k]
+    return found

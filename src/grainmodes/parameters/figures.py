@@ -9,8 +9,8 @@ from dataclasses import dataclass
 class Figure:
     """What a figure shows, what its study must ask for, and what it is drawn from.
 
-    `observables` are words of `configuration.grids`; `source` is "ensemble", or "fields" for the
-    files of single samples.
+    `observables` are words of `configuration.grids`; `source` is "ensemble", or the stage of the
+    files of single samples: "fields", "close_up".
     """
 
     title: str
@@ -71,6 +71,41 @@ FIGURES = {
     "dos_phi": Figure(
         "Density of states towards jamming (paper A, Fig. 16)",
         ("spectrum", "friction", "several_phi"),
+    ),
+    "stress_strain": Figure(
+        "Stress against strain in one sample (paper B, Figs. 1, 8)", ("shear",)
+    ),
+    "rigidity_strain": Figure(
+        "Rigidity and smallest eigenvalue at small strain (paper B, Fig. 7)", ("shear",)
+    ),
+    "rigidity_mean": Figure("Mean rigidity against strain (paper B, Fig. 9)", ("shear",)),
+    "event_states": Figure(
+        "Lowest eigenvalue and rigidity around an event (paper B, Figs. 3 and 13)",
+        ("close_up",),
+        "close_up",
+    ),
+    "event_eigenvectors": Figure(
+        "Lowest eigenvector before and after an event (paper B, Fig. 4)",
+        ("close_up",),
+        "close_up",
+    ),
+    "event_rate": Figure(
+        "Non-affine displacement rate after an event, theory and simulation (paper B, Fig. 5)",
+        ("close_up",),
+        "close_up",
+    ),
+    "event_displacement": Figure(
+        "Non-affine displacement in an event (paper B, Fig. 6)", ("close_up",), "close_up"
+    ),
+    "tangential_error": Figure(
+        "Normal part of the integral of tangential velocities (paper B, Fig. 10)",
+        ("close_up", "friction"),
+        "close_up",
+    ),
+    "event_brackets": Figure(
+        "Stress and strain of an event in closer brackets (paper B, Figs. 11 and 12)",
+        ("close_up",),
+        "close_up",
     ),
 }
 """Every figure. `rigidity` figures show the simulated step strain as well where a study has it;

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 STRAIN_RELAXATIONS = ("newton", "damped")
+LOWEST_EIGENVALUES = ("events", "states")
 
 
 @dataclass(frozen=True)
@@ -17,3 +18,24 @@ class StepStrain:
     time_step: float = 1e-2
     damping: float = 1.0
     max_steps: int = 50_000_000
+
+
+@dataclass(frozen=True)
+class Shear:
+    """Athermal quasistatic shear from 0 to `strain` in steps of `step` (B, Sec. II, App. B).
+
+    A step with an event is taken back and divided by ten, down to `smallest_step`. `newton` leaves
+    to the damped dynamics, with `time_step` and `drag`, only what it cannot decide. The lowest
+    eigenvalue of J is found on both sides of "events", or of all "states".
+    """
+
+    strain: float = 0.5
+    step: float = 1e-4
+    smallest_step: float = 1e-8
+    relaxation: str = "newton"
+    loaded: bool = False
+    force_tolerance: float = 1e-14
+    time_step: float = 0.1
+    drag: float = 1.0
+    max_steps: int = 20_000_000
+    lowest_eigenvalue: str = "events"

@@ -16,11 +16,11 @@ from dataclasses import replace
 import numpy as np
 
 from grainmodes.forces import largest, mean_contact_force, net_force
-from grainmodes.kernels.contacts import normal_slope
 from grainmodes.kernels.fire import FireSettings, fire
 from grainmodes.kernels.laws import Frictionless, Interaction
-from grainmodes.packing import Contacts, Packing, find_contacts, rattlers
+from grainmodes.packing import Packing, find_contacts, rattlers
 from grainmodes.relaxation.newton import newton
+from grainmodes.relaxation.rattlers import moved_out
 from grainmodes.relaxation.result import Relaxed
 
 PAPER_TIME_STEP = 0.1
@@ -102,32 +102,10 @@ def _polished(packing: Packing, normal, tolerance: float) -> Relaxed | None:
         return None
     fraction = packing.fraction.copy()
     fraction[:, ~gone] = solved.packing.fraction
-    settled = _without_overlap(replace(packing, fraction=fraction), interaction, gone)
+    settled = moved_out(replace(packing, fraction=fraction), normal, gone)
     force = net_force(settled, find_contacts(settled), interaction)
     max_force, _ = largest(force)
     return Relaxed(settled, True, solved.iterations, max_force) if max_force < tolerance else None
-
-
-def _without_overlap(packing: Packing, interaction: Interaction, gone: np.ndarray) -> Packing:
-    """Move the rattlers, and only them, until they touch nothing (or 100 tries are spent).
-
-    Three halves of the Newton step F/Σf_N' takes a lone Hertz contact exactly to zero overlap.
-    """
-    for _ in range(100):
-        contacts = find_contacts(packing)
-        if not np.any(gone[contacts.i] | gone[contacts.j]):
-            break
-        force = net_force(packing, contacts, interaction)
-        stiffness = _grain_stiffness(contacts, interaction, packing.n)
-        step = 1.5 * force / np.where(stiffness > 0.0, stiffness, 1.0)[:, None]
-        packing = packing.displaced(np.where(gone[:, None], step, 0.0))
-    return packing
-
-
-def _grain_stiffness(contacts: Contacts, interaction: Interaction, n: int) -> np.ndarray:
-    """Σ_j f_N'(ξ_ij) of every grain, (N,)."""
-    slope = normal_slope(interaction.normal, contacts.overlap)
-    return np.bincount(contacts.i, slope, n) + np.bincount(contacts.j, slope, n)
 
 
 def unjammed(packing: Packing, normal) -> bool:

@@ -34,7 +34,7 @@ def test_the_default_scene_is_paper_a_small():
     assert len(small) == 8 * 8
     assert {point.phi for point in small} == {0.83, 0.84, 0.85, 0.86, 0.87, 0.88, 0.89, 0.9}
     assert len(scene.blocks_of(256, 0.9, 1e-4)) == 1
-    assert scene.figures == tuple(FIGURES)
+    assert scene.figures == tuple(n for n, figure in FIGURES.items() if "paper A" in figure.title)
 
 
 def test_the_schema_is_one():

@@ -8,6 +8,7 @@ import pytest
 from benchmarks import growth
 from grainmodes.cost import Law, read_table
 from grainmodes.cost.work import work
+from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.spectra import SpectrumChoices
 from priced import TABLE
 
@@ -20,13 +21,13 @@ def test_a_law_is_a_power_of_n():
 
 
 def test_every_law_of_the_table_is_used():
-    every = {"rigidity", "step_strain", "fields", "probes"}
+    every = {"rigidity", "step_strain", "fields", "probes", "shear", "close_up"}
     used = {"trajectory", "pack"} | every
     for factorisation in ("superlu", "pardiso"):
         choices = SpectrumChoices(factorisation=factorisation)
         for kind in ("counts", "bands", "eigenvalues", "modes"):
             for n in (64, 65536):
-                used |= set(work("spectrum", kind, n, 1.0, choices, TABLE))
+                used |= set(work("spectrum", kind, n, 1.0, Protocol(spectrum=choices), TABLE))
     assert used == set(TABLE.laws)
 
 

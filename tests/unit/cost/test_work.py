@@ -5,10 +5,13 @@ from dataclasses import replace
 import pytest
 
 from grainmodes.cost.work import work
+from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.spectra import SpectrumChoices
+from grainmodes.parameters.strain import Shear
 from priced import TABLE
 
 CHOICES = SpectrumChoices(factorisation="superlu", fineness=1.0)
+PROTOCOL = Protocol(spectrum=CHOICES)
 
 
 @pytest.mark.parametrize(
@@ -29,16 +32,22 @@ CHOICES = SpectrumChoices(factorisation="superlu", fineness=1.0)
     ],
 )
 def test_a_spectrum_is_the_work_of_its_method(kind, n, method, units):
-    choices = replace(CHOICES, method=method)
-    assert work("spectrum", kind, n, 1.0, choices, TABLE) == units
-    assert work("spectrum_rattlers", kind, n, 1.0, choices, TABLE) == units
+    asked = Protocol(spectrum=replace(CHOICES, method=method))
+    assert work("spectrum", kind, n, 1.0, asked, TABLE) == units
+    assert work("spectrum_rattlers", kind, n, 1.0, asked, TABLE) == units
 
 
 def test_without_rotation_there_is_less_of_a_spectrum():
-    choices = replace(CHOICES, method="windows")
-    assert work("spectrum", "modes", 1024, 0.0, choices, TABLE) == {"window_superlu": 2048}
-    assert work("spectrum", "counts", 4096, 0.0, choices, TABLE) == {"count_superlu": 541}
+    asked = Protocol(spectrum=replace(CHOICES, method="windows"))
+    assert work("spectrum", "modes", 1024, 0.0, asked, TABLE) == {"window_superlu": 2048}
+    assert work("spectrum", "counts", 4096, 0.0, asked, TABLE) == {"count_superlu": 541}
 
 
 def test_two_hessians_are_counted_whatever_the_spectrum():
-    assert work("spectrum_hessian", "modes", 4096, 1.0, CHOICES, TABLE) == {"count_superlu": 1282}
+    assert work("spectrum_hessian", "modes", 4096, 1.0, PROTOCOL, TABLE) == {"count_superlu": 1282}
+
+
+def test_a_shear_is_priced_by_its_strain():
+    for strain, step in ((0.5, 1e-4), (0.2, 1e-3)):
+        protocol = Protocol(shear=Shear(strain, step))
+        assert work("shear", "none", 128, 1.0, protocol, TABLE) == {"shear": strain / 1e-4}

@@ -80,6 +80,8 @@ def test_observables_that_a_figure_needs_are_named(tmp_path):
         "dos_hessian": "holds no bin_count_hessian",
         "dos_rattlers": "holds no eigenvalue_rattlers",
         "dos_n": "holds no eigenvalue",
+        "stress_strain": "holds no curve_count",
+        "rigidity_mean": "holds no curve_count",
     }.items():
         with pytest.raises(BlockError, match=sentence):
             draw(name, path, tmp_path / "figure", {})

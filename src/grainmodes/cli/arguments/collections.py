@@ -43,17 +43,18 @@ def _figure(commands) -> None:
         "data",
         type=Path,
         nargs="+",
-        help="file of `grainmodes ensemble`, or of `grainmodes fields`",
+        help="file of `grainmodes ensemble`, or files of `grainmodes fields` or `close-up`",
     )
     command.add_argument("--n", type=int, help="the number of grains to show")
     command.add_argument("--phi", type=float, help="the area fraction to show")
     command.add_argument("--kt", type=float, nargs="+", help="the tangential stiffnesses to show")
+    command.add_argument("--seed", type=int, help="the sample to show")
     command.add_argument("--fineness", type=float, help="factor on the numbers of linear bins")
     options.output(command, "path without suffix; .png, .pdf and .csv are written")
 
 
 def _claims(commands) -> None:
-    sentence = "Check the claims A1 to A19 of paper A on an ensemble."
+    sentence = "Check the claims of papers A and B on an ensemble."
     command = options.command(commands, "claims", "collections:claims", sentence)
     command.add_argument("ensemble", type=Path, help="file of `grainmodes ensemble`")
     command.add_argument(

@@ -12,7 +12,18 @@ from grainmodes.parameters.spectra import SPECTRA
 
 def define(commands) -> None:
     """Add these commands, in the order in which a sample passes them."""
-    for add in (_compress, _pack, _rigidity, _step_strain, _spectrum, _fields, _probes, _point):
+    for add in (
+        _compress,
+        _pack,
+        _rigidity,
+        _step_strain,
+        _spectrum,
+        _fields,
+        _probes,
+        _shear,
+        _close_up,
+        _point,
+    ):
         add(commands)
 
 
@@ -78,6 +89,23 @@ def _fields(commands) -> None:
 def _probes(commands) -> None:
     sentence = "What single claims of paper A need, probed on packings."
     _response(commands, "probes", "stages:probes", sentence)
+
+
+def _shear(commands) -> None:
+    sentence = "Quasistatic shear of packings, with every event between two states."
+    command = _response(commands, "shear", "stages:shear", sentence)
+    command.add_argument(
+        "--keep-every",
+        type=options.positive,
+        default=120,
+        metavar="SECONDS",
+        help="how often to keep how far a sample has come, beside the output file",
+    )
+
+
+def _close_up(commands) -> None:
+    sentence = "The first event in the shear of the first of some packings, looked at closely."
+    _response(commands, "close-up", "stages:close_up", sentence)
 
 
 def _response(commands, name: str, run: str, sentence: str) -> argparse.ArgumentParser:

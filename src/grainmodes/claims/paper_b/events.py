@@ -1,0 +1,166 @@
+"""Claims of paper B on plastic events: B3, B4, B7 and B9.
+
+    symbol       name                                                       paper B
+    γ_c          middle of the bracket of an event                          App. B
+    λ_min        Curve.lowest                                               Figs. 3, 7, 13
+    g            Curve.modulus                                              Figs. 3, 7
+
+Seen are the states that lead up to an event on the same contacts, over the last steps Δγ_in at most
+(`ensemble.curves.Approach`). Means over the events of a sample first, over the samples then.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
+from grainmodes.claims.estimates import mean
+from grainmodes.claims.paper_b.sheared import SAME, harmonic, over_samples, sheared
+from grainmodes.claims.samples import at
+from grainmodes.ensemble.curves import Approach, Curve
+
+PRECURSOR = 0.05
+"""Relative change of λ_min before an event that would be a precursor; a square root gives 1."""
+
+SUDDEN = 10.0
+"""Times the trend of the states before by which λ_min changes where it jumps."""
+
+MOST = 0.9
+"""Share of all events that counts as all: the eigenvalue of another place may be the lowest."""
+
+FEWEST_STATES = 5
+"""States without which a singular part is not told from a regular one."""
+
+
+@claim("B3", unit="1")
+def jump_without_precursor(ensemble) -> Outcome:
+    """The smallest eigenvalue λ_min jumps at γ_c, and no trend announces it (Figs. 3, 7, 13).
+
+    Relative change of λ_min on the states that lead up to an event, mean over events; share of the
+    events at which it changes by more than ten times what this trend gives.
+
+    Criterion: the change within ±5 %, the share above 0.9.
+    """
+    parts, notes = [], []
+    for where, of in sheared(ensemble, "curve_lowest_eigenvalue"):
+        parts.append(Part(f"trend, {where}", over_samples(of, _trend), -PRECURSOR, PRECURSOR))
+        parts.append(Part(f"jumps, {where}", over_samples(of, _share_of_jumps), MOST))
+        falls = np.concatenate([_trends(curve) for curve in of])
+        size = over_samples(of, _size_of_jump)
+        notes.append(
+            f"At {where} λ_min changes by {text(size)} of itself in an event, and before "
+            f"{(falls < -PRECURSOR).sum()} of {len(falls)} events it falls by more than 5 %."
+        )
+    return Outcome(_measured(parts, "λ_min on states before events"), " ".join(notes))
+
+
+def _measured(parts: list[Part], needed: str) -> list[Part]:
+    known = [part for part in parts if np.isfinite(part.estimate.value)]
+    if not known:
+        raise NotAsked(needed)
+    return known
+
+
+def _seen(curve: Curve, fewest: int) -> list[Approach]:
+    return [a for a in curve.approaches if a.last - a.first + 1 >= fewest]
+
+
+def _trends(curve: Curve) -> np.ndarray:
+    seen = _seen(curve, 2)
+    first, last = (curve.lowest[[a[side] for a in seen]] for side in (0, 1))
+    return (last - first) / np.abs(first)
+
+
+def _trend(curve: Curve) -> float:
+    return np.mean(_trends(curve)) if _seen(curve, 2) else np.nan
+
+
+def _share_of_jumps(curve: Curve) -> float:
+    sudden = []
+    for first, last in _seen(curve, 2):
+        slope = (curve.lowest[last] - curve.lowest[first]) / (
+            curve.strain[last] - curve.strain[first]
+        )
+        change = curve.lowest[last + 1] - curve.lowest[last]
+        sudden.append(abs(change) > SUDDEN * abs(slope) * curve.step[last])
+    return np.mean(sudden) if sudden and np.isfinite(curve.lowest).all() else np.nan
+
+
+def _size_of_jump(curve: Curve) -> float:
+    (last,) = np.nonzero(curve.event)
+    change = np.abs(curve.lowest[last + 1] - curve.lowest[last]) / np.abs(curve.lowest[last])
+    return np.mean(change) if len(last) else np.nan
+
+
+@claim("B4", unit="1")
+def no_singularity(ensemble) -> Outcome:
+    """The rigidity has no singularity -(γ_c - γ)^(-1/2) below γ_c (Fig. 3).
+
+    g on the states that lead up to an event is fitted with a + b (γ_c - γ) + A (γ_c - γ)^(-1/2);
+    measured is the last term at the last of them, over the mean |g| of the sample.
+
+    Criterion: within ±1 %.
+    """
+    parts = [
+        Part(where, over_samples(of, _singular), -SAME, SAME)
+        for where, of in sheared(ensemble, "curve_g_xy")
+    ]
+    return Outcome(_measured(parts, f"events with {FEWEST_STATES} states before them"))
+
+
+def _singular(curve: Curve) -> float:
+    terms = [_singular_term(curve, approach) for approach in _seen(curve, FEWEST_STATES)]
+    return np.mean(terms) / np.abs(curve.modulus).mean() if terms else np.nan
+
+
+def _singular_term(curve: Curve, approach: Approach) -> float:
+    critical = curve.strain[approach.last : approach.last + 2].mean()
+    distance = critical - curve.strain[approach.states]
+    terms = np.stack([np.ones(len(distance)), distance, distance**-0.5], axis=1)
+    scale = np.abs(terms).max(axis=0)
+    fit = np.linalg.lstsq(terms / scale, curve.modulus[approach.states], rcond=None)[0]
+    return fit[2] * terms[-1, 2] / scale[2]
+
+
+@claim("B7", unit="1")
+def quadrupole_of_rotations(ensemble) -> Outcome:
+    """Domains of rotating grains in an event form a quadrupole (Fig. 6).
+
+    Criterion: four domains of alternating rotation around one centre.
+    """
+    raise NotAsked("displacements of single grains in events, which stay in the files of the shear")
+
+
+@claim("B9", unit="1")
+def contacts_at_events(ensemble) -> Outcome:
+    """Contacts open or close at every plastic event (Sec. IV, Fig. 8).
+
+    Share of the events between whose two states a contact opened, closed, or opened and closed
+    again, its spring unloaded.
+
+    Criterion: above 0.9.
+    """
+    names = ("event_opened", "event_closed", "event_reopened")
+    samples = harmonic(ensemble, "curve_strain", *names)
+    parts, notes = [], []
+    for point in samples.points("curve_strain"):
+        kind, *changes = (samples.of(name, *point) for name in ("event_kind", *names))
+        happened = kind > 0
+        changed, lasting = (
+            np.where(happened, sum(of) > 0, np.nan) for of in (changes, changes[:2])
+        )
+        parts.append(Part(at(*point), mean(_share(changed)), MOST))
+        opened, closed, again = (int(of[happened].sum()) for of in changes)
+        notes.append(
+            f"In {happened.sum()} events at {at(*point)} {opened} contacts opened, {closed} closed "
+            f"and {again} did both; in {text(mean(1.0 - _share(lasting)))} of the events of a "
+            "sample the network is the same before and after."
+        )
+    return Outcome(_measured(parts, "events"), " ".join(notes))
+
+
+def _share(happened: np.ndarray) -> np.ndarray:
+    """Share by sample of (S, E) of 1 and 0; NaN: no event."""
+    known = np.isfinite(happened).sum(axis=1)
+    with np.errstate(invalid="ignore"):
+        return np.where(known > 0, np.nansum(happened, axis=1) / known, np.nan)

@@ -1,0 +1,47 @@
+"""The sheared samples that the claims of paper B are about: harmonic grains."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from grainmodes.claims.claim import NotAsked
+from grainmodes.claims.estimates import Estimate, mean
+from grainmodes.claims.samples import Samples, at, richest
+from grainmodes.ensemble import normal_law
+from grainmodes.ensemble.curves import Curve, curves
+
+SAME = 0.01
+"""Relative difference of two numbers that a figure of B does not show."""
+
+
+def harmonic(ensemble, *names: str) -> Samples:
+    """The samples of the N with most points that have all the variables.
+
+    Raises:
+        NotAsked: the ensemble lacks one of the variables, or its grains are not harmonic.
+    """
+    samples = richest(ensemble, *names)
+    if normal_law(ensemble) != "harmonic":
+        raise NotAsked("harmonic grains")
+    return samples
+
+
+def sheared(ensemble, *names: str) -> Iterator[tuple[str, list[Curve]]]:
+    """The name of every point with sheared samples, and their curves.
+
+    Raises:
+        NotAsked: as `harmonic`.
+    """
+    samples = harmonic(ensemble, "curve_strain", *names)
+    for point in samples.points("curve_strain"):
+        found = curves(ensemble, samples.n, *point).values()
+        if moved := [curve for curve in found if len(curve.step)]:
+            yield at(*point), moved
+
+
+def over_samples(of: list[Curve], number: Callable[[Curve], float]) -> Estimate:
+    """Mean over the samples of a number of a curve; NaN leaves a sample out."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return mean(np.array([number(curve) for curve in of]))

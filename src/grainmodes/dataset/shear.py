@@ -1,0 +1,84 @@
+"""Names of quasistatic shear: the curve, its events with both states, and smaller changes."""
+
+from __future__ import annotations
+
+from grainmodes.dataset.variable import BLOCK, MODULUS, Variable
+
+STATE = ("seed", "state")
+EVENT = ("seed", "event")
+CHANGE = ("seed", "change")
+GRAINS = ("seed", "event", "grain")
+CONTACTS = ("seed", "event", "contact")
+
+
+def _sides(name: str, row: Variable) -> dict[str, Variable]:
+    """A row for the state before an event, and one for the state after it.
+
+    The two have different numbers of contacts, and so dimensions of their own for them.
+    """
+    rows = {}
+    for side in ("before", "after"):
+        own = tuple(f"contact_{side}" if d == "contact" else d for d in row.dimensions)
+        meaning = f"{row.long_name}, {side} an event"
+        rows[f"{name}_{side}"] = row._replace(dimensions=own, long_name=meaning)
+    return rows
+
+
+NAMES = {
+    # the curve
+    "curve_strain": Variable(STATE, "f8", "1", "strain of a state of the curve; NaN: none"),
+    "curve_stress_xy": Variable(STATE, "f8", MODULUS, "stress sigma_xy of a state"),
+    "curve_stress_yx": Variable(STATE, "f8", MODULUS, "stress sigma_yx of a state"),
+    "curve_pressure": Variable(STATE, "f8", MODULUS, "pressure (sigma_xx + sigma_yy) / -2"),
+    "curve_g_xy": Variable(STATE, "f8", MODULUS, "rigidity d sigma_xy / d strain of a state"),
+    "curve_g_yx": Variable(STATE, "f8", MODULUS, "rigidity d sigma_yx / d strain of a state"),
+    "curve_energy": Variable(STATE, "f8", "k_N d^2", "energy stored in the contacts"),
+    "curve_contact_number": Variable(
+        STATE, "f8", "1", "mean number of contacts of the grains that carry load"
+    ),
+    "curve_lowest_eigenvalue": Variable(
+        STATE, "f8", MODULUS, "smallest eigenvalue of the Jacobian but its translations"
+    ),
+    "curve_count": Variable(BLOCK, "i8", "1", "number of states of the curve"),
+    # events
+    "event_count": Variable(BLOCK, "i8", "1", "number of plastic events"),
+    "event_kind": Variable(
+        EVENT, "i1", "1", "1: the stress fell; 2: the rigidity fell by 1e-2; 3: both; 0: no event"
+    ),
+    "event_opened": Variable(EVENT, "i8", "1", "contacts that opened in an event"),
+    "event_closed": Variable(EVENT, "i8", "1", "contacts that closed in an event"),
+    "event_reopened": Variable(
+        EVENT, "i8", "1", "contacts that opened in an event and closed again"
+    ),
+    **_sides("event_strain", Variable(EVENT, "f8", "1", "strain")),
+    **_sides("event_stress", Variable(EVENT, "f8", MODULUS, "(sigma_xy + sigma_yx) / 2")),
+    **_sides("event_g", Variable(EVENT, "f8", MODULUS, "(g_xy + g_yx) / 2")),
+    **_sides("event_energy", Variable(EVENT, "f8", "k_N d^2", "energy stored in the contacts")),
+    **_sides("event_lowest_eigenvalue", Variable(EVENT, "f8", MODULUS, "smallest eigenvalue")),
+    **_sides("event_asymmetry", Variable(EVENT, "f8", "1", "max |J - J^T| / max |J|")),
+    "event_complex_pairs_after": Variable(
+        EVENT, "f8", "1", "complex pairs of eigenvalues of J / M after an event; NaN: not counted"
+    ),
+    **_sides("event_rotation", Variable(GRAINS, "f8", "d", "rotation l of every grain")),
+    **_sides("event_fraction", Variable((*GRAINS, "axis"), "i8", "2^-64 L", "grain position")),
+    **_sides("event_contact_i", Variable(CONTACTS, "i4", "1", "grain i of a contact; -1: none")),
+    **_sides("event_contact_j", Variable(CONTACTS, "i4", "1", "grain j of a contact; -1: none")),
+    **_sides("event_slip", Variable(CONTACTS, "f8", "d", "tangential displacement of a contact")),
+    "event_displacement": Variable(
+        (*GRAINS, "component"), "f8", "d", "displacement in an event, (x, y, l); its mean is 0"
+    ),
+    # the last state
+    "last_asymmetry": Variable(BLOCK, "f8", "1", "max |J - J^T| / max |J| of the last state"),
+    "last_complex_pairs": Variable(
+        BLOCK, "f8", "1", "complex pairs of the last state; NaN: not counted"
+    ),
+    # smaller changes
+    "change_count": Variable(BLOCK, "i8", "1", "number of steps with a change"),
+    "change_strain_before": Variable(CHANGE, "f8", "1", "strain before a change; NaN: none"),
+    "change_strain_after": Variable(CHANGE, "f8", "1", "strain after a change"),
+    "change_opened": Variable(CHANGE, "i8", "1", "contacts that opened in a step"),
+    "change_closed": Variable(CHANGE, "i8", "1", "contacts that closed in a step"),
+    "change_jumped": Variable(
+        CHANGE, "i1", "1", "1 if the dynamics had to find the balance after a step"
+    ),
+}

@@ -1,0 +1,22 @@
+"""Signs of permutations, for those of determinants."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes.kernels.compiler import kernel
+
+
+@kernel
+def odd(permutation):
+    """1 if a permutation (M,) int is odd, else 0: M minus its number of cycles, modulo 2."""
+    size = permutation.shape[0]
+    seen = np.zeros(size, np.bool_)
+    cycles = 0
+    for start in range(size):
+        cycles += not seen[start]
+        at = start
+        while not seen[at]:
+            seen[at] = True
+            at = permutation[at]
+    return (size - cycles) % 2

@@ -1,0 +1,168 @@
+"""The stage `shear`: every packing of a block sheared quasistatically, with its events.
+
+A sample takes minutes to hours, so a keeper may be told now and then how far it has come and asked
+where to go on. Where it was interrupted leaves no trace in the numbers: a walk is kept only where
+its state alone determines what follows (`Walk.restartable`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict
+from typing import Protocol
+
+import numpy as np
+
+from grainmodes.dataset.files import Block
+from grainmodes.forces import is_frictionless
+from grainmodes.kernels.laws import Interaction, interaction
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.shear import Walk
+from grainmodes.protocols.sheared_state import Change, Event, Point, reopened
+from grainmodes.relaxation.balance import Balance
+from grainmodes.rows import response_block
+from grainmodes.samples import jammed_packing, seed_of
+from grainmodes.stability import asymmetry, complex_pairs
+
+MOST_FOR_PAIRS = 1200
+"""Degrees of freedom up to which complex pairs are counted, in a second an event."""
+
+
+class Keeper(Protocol):
+    """Where walks are kept between two runs."""
+
+    def kept(self, seed: int) -> Walk | None:
+        """The walk of a sample as far as it came, if one was kept."""
+
+    def watch(self, seed: int, walk: Walk) -> None:
+        """Called after every step: keep the walk if it is time to, and `restartable`."""
+
+
+def shear_block(
+    packings: Block, law: ContactLaw, choices: Shear, keeper: Keeper | None = None
+) -> Block:
+    """The stress-strain curve of every packing, up to `choices.strain`."""
+    rule = interaction(law)
+
+    def sample(number: int) -> dict[str, object]:
+        packing, jammed = jammed_packing(packings, number, rule)
+        seed = seed_of(packings, number)
+        if not jammed:
+            return {"curve_count": 0, "jammed": False, "converged": True}
+        walk = (keeper and keeper.kept(seed)) or Walk.start(packing, rule, choices)
+        while not walk.done and walk.advance():
+            if keeper:
+                keeper.watch(seed, walk)
+        return row_of(walk) | ({} if walk.done else {"failure": walk.ending})
+
+    config = {"law": asdict(law), "shear": asdict(choices)}
+    return response_block(packings, "shear", config, law, sample)
+
+
+def row_of(walk: Walk) -> dict[str, object]:
+    """All that was recorded on the way; not converged where it ended before the last strain."""
+    balance = walk.now.balance
+    packing, rule = balance.packing, balance.interaction
+    still = {name: getattr(packing, name) for name in ("diameter", "mass", "box_length")}
+    return {
+        **still,
+        **_curve(walk.curve),
+        **_events(walk.events, rule),
+        "last_asymmetry": asymmetry(balance.matrix),
+        "last_complex_pairs": _pairs(balance),
+        **_changes(walk.changes),
+        "jammed": True,
+        "converged": walk.done,
+    }
+
+
+def _curve(points: list[Point]) -> dict[str, object]:
+    stress, modulus = (
+        np.array([getattr(p, name) for p in points]) for name in ("stress", "modulus")
+    )
+    return {
+        "curve_count": len(points),
+        "curve_strain": [p.strain for p in points],
+        "curve_stress_xy": stress[:, 0, 1],
+        "curve_stress_yx": stress[:, 1, 0],
+        "curve_pressure": -np.trace(stress, axis1=1, axis2=2) / 2.0,
+        "curve_g_xy": modulus[:, 0, 1],
+        "curve_g_yx": modulus[:, 1, 0],
+        "curve_energy": [p.energy for p in points],
+        "curve_contact_number": [p.contact_number for p in points],
+        "curve_lowest_eigenvalue": [p.lowest for p in points],
+    }
+
+
+def _events(events: list[Event], rule: Interaction) -> dict[str, object]:
+    row: dict[str, object] = {"event_count": len(events)}
+    if not events:
+        return row
+    row |= {
+        f"event_{name}": [getattr(e, name) for e in events] for name in ("kind", "opened", "closed")
+    }
+    row["event_displacement"] = np.stack([_three(e.displacement) for e in events])
+    row["event_reopened"] = [reopened(e.before, e.after) for e in events]
+    for number, side in enumerate(("before", "after")):
+        balances = [Balance.of(getattr(e, side), rule) for e in events]
+        row |= _side(side, balances, [e.points[number] for e in events])
+    row["event_complex_pairs_after"] = [_pairs(balance) for balance in balances]
+    return row
+
+
+def _pairs(balance: Balance) -> float:
+    """Complex pairs of eigenvalues of M⁻¹J; a symmetric J has none."""
+    if is_frictionless(balance.interaction):
+        return 0.0
+    few = balance.matrix.shape[0] <= MOST_FOR_PAIRS
+    return float(complex_pairs(balance.backbone, balance.interaction)) if few else np.nan
+
+
+def _side(side: str, balances: list[Balance], points: list[Point]) -> dict[str, object]:
+    """What is kept of the states on one side of all events."""
+    packings = [balance.packing for balance in balances]
+    symmetric = {
+        name: [(of[0, 1] + of[1, 0]) / 2.0 for of in tensors]
+        for name, tensors in (
+            ("stress", [p.stress for p in points]),
+            ("g", [p.modulus for p in points]),
+        )
+    }
+    row = symmetric | {
+        "strain": [p.strain for p in points],
+        "energy": [p.energy for p in points],
+        "lowest_eigenvalue": [p.lowest for p in points],
+        "asymmetry": [asymmetry(balance.matrix) for balance in balances],
+        "fraction": np.stack([packing.fraction.T for packing in packings]),
+    }
+    if packings[0].rotation is not None:
+        histories = [packing.history for packing in packings]
+        row |= {
+            "rotation": np.stack([packing.rotation for packing in packings]),
+            "contact_i": _even((h.i for h in histories), -1),
+            "contact_j": _even((h.j for h in histories), -1),
+            "slip": _even((h.tangential_displacement for h in histories), np.nan),
+        }
+    return {f"event_{name}_{side}": values for name, values in row.items()}
+
+
+def _changes(changes: list[Change]) -> dict[str, object]:
+    row = {f"change_{name}": [getattr(c, name) for c in changes] for name in Change._fields}
+    return {"change_count": len(changes)} | (row if changes else {})
+
+
+def _three(field: np.ndarray) -> np.ndarray:
+    """A field (N, k) with a column for the rotation, NaN where friction does not exist."""
+    whole = np.full((len(field), 3), np.nan)
+    whole[:, : field.shape[1]] = field
+    return whole
+
+
+def _even(rows: Iterable[np.ndarray], fill: float) -> np.ndarray:
+    """Rows of different lengths as one array, the shorter ones filled up."""
+    rows = list(rows)
+    whole = np.full((len(rows), max(map(len, rows))), fill, rows[0].dtype)
+    for place, row in enumerate(rows):
+        whole[place, : len(row)] = row
+    return whole

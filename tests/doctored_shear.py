@@ -1,0 +1,73 @@
+"""Changes of `claimed_shear.ensemble()`, each of which one claim of paper B does not survive."""
+
+import numpy as np
+
+import claimed_shear
+
+
+def theory_off(ensemble):
+    """Every other step is 5 % longer, those between 5 % shorter: of their mean nothing is seen."""
+    step = np.diff(claimed_shear.strains())
+    sign = np.where(np.arange(len(step)) % 2, 1.0, -1.0)
+    off = np.concatenate([[0.0], np.cumsum(0.3 * 0.05 * sign * step)])
+    claimed_shear.add_stress(ensemble, off)
+
+
+def trend_before_events(ensemble):
+    """λ_min falls to nothing as the root of γ_c - γ, over the steps before every event."""
+    strain = ensemble["curve_strain"]
+    for critical in claimed_shear.EVENTS:
+        left = (critical + 0.5 * claimed_shear.SMALLEST - strain) / (2.0 * claimed_shear.STEP)
+        near = (left > 0.0) & (left < 1.0)
+        lowest = ensemble["curve_lowest_eigenvalue"]
+        ensemble["curve_lowest_eigenvalue"] = lowest.where(~near, lowest * np.sqrt(abs(left)))
+
+
+def singular_rigidity(ensemble):
+    """g gets a term of a few per cent at the last state of an approach; σ goes with it."""
+    strain, half = claimed_shear.strains(), 0.5 * claimed_shear.SMALLEST
+    term = np.zeros(len(strain))
+    for critical in claimed_shear.EVENTS:
+        left = critical + half - strain
+        near = (left > 0.0) & (left < 3.0 * claimed_shear.STEP)
+        term[near] -= 0.02 * np.sqrt(half / left[near])
+    for name in ("curve_g_xy", "curve_g_yx"):
+        ensemble[name].loc[claimed_shear.PLACE] += term
+    rise = np.concatenate([[0.0], np.cumsum(term[:-1] * np.diff(strain))])
+    claimed_shear.add_stress(ensemble, rise)
+
+
+def skewed(ensemble):
+    ensemble["event_asymmetry_after"] = ensemble["event_asymmetry_after"] + 0.003
+
+
+def softer_in_changes(ensemble):
+    """σ falls a little in every change, too little for a figure of σ."""
+    strain = claimed_shear.strains()
+    starts = strain[np.searchsorted(strain, claimed_shear.CHANGES)]
+    drops = (strain[:, None] > starts).sum(axis=1)
+    claimed_shear.add_stress(ensemble, -1.2e-4 * drops)
+
+
+def no_contact_changes(ensemble):
+    ensemble["event_opened"] = 0.0 * ensemble["event_opened"]
+
+
+DOCTORED = {
+    "B1": theory_off,
+    "B3": trend_before_events,
+    "B4": singular_rigidity,
+    "B6": skewed,
+    "B8": softer_in_changes,
+    "B9": no_contact_changes,
+}
+"""Claims that fall alone; B10 says of harmonic grains what A1 says, and falls with it."""
+
+
+def no_jump(ensemble):
+    strain = ensemble["curve_strain"]
+    ensemble["curve_lowest_eigenvalue"] = 0.2 - 0.1 * strain
+
+
+SECOND = {"B3": no_jump}
+"""Claims that say two things, doctored in the second."""

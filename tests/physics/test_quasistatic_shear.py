@@ -1,0 +1,212 @@
+"""Quasistatic shear against what must hold for any forces, and against B's damped dynamics."""
+
+import pickle
+from dataclasses import replace
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from grainmodes.forces import net_force
+from grainmodes.jacobian import jacobian
+from grainmodes.kernels.laws import Harmonic, interaction
+from grainmodes.packing import Packing, find_contacts, nonaffine_motion
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.quasistatic import first_balance, step_to
+from grainmodes.protocols.shear import RIGIDITY_FELL, Walk
+from grainmodes.protocols.sheared_state import State
+from grainmodes.relaxation.frictionless import relax_fast
+from grainmodes.shear_blocks import row_of
+from specimens import LAWS, crowd, law_name, quenched, reference
+
+B = ContactLaw("harmonic", "elastic", 1.0)
+FRICTIONLESS = [ContactLaw("harmonic"), ContactLaw("hertz")]
+SMALL = "harmonic_n64_phi0.900_seed1"
+
+
+def walked(packing: Packing, law: ContactLaw, choices: Shear) -> Walk:
+    """A shear to its end."""
+    walk = Walk.start(packing, interaction(law), choices)
+    while not walk.done and walk.advance():
+        pass
+    return walk
+
+
+@cache
+def harmonic(n: int, seed: int) -> Packing:
+    """A harmonic packing in balance at φ = 0.90, from a Hertzian one."""
+    return relax_fast(quenched(n, 0.90, seed), Harmonic(1.0), 1e-14, 1_000_000).packing
+
+
+def state_at(packing: Packing, law: ContactLaw, choices: Shear) -> State:
+    """A state whose springs are loaded: a few steps away from where friction was switched on."""
+    return walked(packing, law, replace(choices, strain=5 * choices.step)).now
+
+
+@pytest.mark.parametrize("loaded", [False, True], ids=["unloaded", "loaded"])
+@pytest.mark.parametrize("law", [*FRICTIONLESS, *LAWS], ids=law_name)
+def test_rigidity_is_the_slope_of_both_stress_components(law, loaded):
+    """Central differences of relaxed states, whose error falls as the square of the step."""
+    packing = reference(f"{law.normal}_n64_phi0.900_seed1")[1]
+    choices = Shear(step=1e-5, smallest_step=1e-10, loaded=loaded)
+    now, slopes = state_at(packing, law, choices), []
+    for size in (2e-7, 1e-7):
+        there, back = (
+            State(step_to(now.strain + sign * size, now.balance, choices)[0], 0, loaded).stress
+            for sign in (1.0, -1.0)
+        )
+        slopes.append((there - back) / (2.0 * size))
+    extrapolated = (4.0 * slopes[1] - slopes[0]) / 3.0
+    np.testing.assert_allclose(extrapolated, now.modulus, rtol=1e-6, atol=1e-6 * abs(now.g))
+
+
+@pytest.mark.parametrize("law", [ContactLaw("harmonic"), ContactLaw("hertz"), B], ids=law_name)
+def test_work_is_the_change_of_energy_between_events(law):
+    """dE = L² σ_xy dγ, by the trapezoid rule: frictionless, or harmonic with springs loaded."""
+    packing = reference(f"{law.normal}_n64_phi0.900_seed1")[1]
+    missing = []
+    for step in (2e-5, 1e-5):
+        choices = Shear(strain=4e-5, step=step, smallest_step=1e-9, loaded=True)
+        curve = walked(packing, law, choices).curve
+        work = sum(
+            0.5 * (a.stress[0, 1] + b.stress[0, 1]) * (b.strain - a.strain)
+            for a, b in pairwise(curve)
+        )
+        gain = curve[-1].energy - curve[0].energy
+        missing.append(abs(packing.box_length**2 * work - gain) / abs(gain))
+    assert missing[1] < 1e-7
+    assert missing[1] < 0.35 * missing[0] or missing[0] < 1e-10
+
+
+def test_work_is_not_the_change_of_energy_where_the_affine_step_leaves_the_springs_alone():
+    packing = reference(SMALL)[1]
+    now = state_at(packing, B, Shear(step=1e-3, smallest_step=1e-3))
+    walk = Walk(now, Shear(strain=now.strain + 1e-4, step=1e-4, smallest_step=1e-4), 1)
+    walk.now = replace(now, units=round(now.strain / 1e-4))
+    walk.advance()
+    after = walk.curve[-1]
+    work = 0.5 * (now.stress[0, 1] + after.stress[0, 1]) * 1e-4 * packing.box_length**2
+    gain = after.energy - now.point(False).energy
+    assert abs(work - gain) > 1e-3 * abs(gain)
+
+
+@pytest.mark.parametrize("law", [B, ContactLaw("hertz", "elastic", 1.0)], ids=law_name)
+def test_forward_and_back_leads_home(law):
+    choices = Shear(step=1e-5, smallest_step=1e-9)
+    now = state_at(reference(f"{law.normal}_n64_phi0.900_seed1")[1], law, choices)
+    there, _ = step_to(now.strain + 1e-6, now.balance, choices)
+    back, _ = step_to(now.strain, there, choices)
+    assert np.abs(nonaffine_motion(now.balance.packing, there.packing)).max() > 1e-8
+    moved = nonaffine_motion(now.balance.packing, back.packing)
+    moved[:, :2] -= moved[:, :2].mean(axis=0)
+    assert np.abs(moved).max() < 1e-12
+    difference = back.contacts.displacement - now.balance.contacts.displacement
+    assert np.abs(difference).max() < 1e-12
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_newton_and_damped_dynamics_agree_between_events(seed):
+    """At Δγ = 1e-4 to 1e-6 of σ, while the network stays as it is."""
+    packing, sigma = harmonic(32, seed), {}
+    for relaxation in ("newton", "damped"):
+        choices = Shear(
+            strain=4e-4, step=1e-4, smallest_step=1e-4, relaxation=relaxation, time_step=1e-2
+        )
+        walk = walked(packing, B, choices)
+        free = all(c.opened == c.closed == 0 for c in walk.changes)
+        sigma[relaxation] = [0.5 * (p.stress[0, 1] + p.stress[1, 0]) for p in walk.curve]
+    if free:
+        np.testing.assert_allclose(sigma["newton"], sigma["damped"], rtol=1e-6)
+    else:
+        np.testing.assert_allclose(sigma["newton"], sigma["damped"], atol=1e-4)
+
+
+def test_the_difference_to_damped_dynamics_falls_as_the_square_of_the_step():
+    """The dynamics leads s along a bent path, and what that adds is the area it encloses."""
+    packing, differences = harmonic(32, 3), []
+    for step in (4e-4, 2e-4, 1e-4):
+        sigma = []
+        for relaxation in ("newton", "damped"):
+            choices = Shear(step, step, step, relaxation, time_step=1e-2)
+            sigma.append(walked(packing, B, choices).now.sigma)
+        differences.append(abs(sigma[0] - sigma[1]))
+    orders = -np.diff(np.log2(differences))
+    assert np.all(np.abs(orders - 2.0) < 0.1)
+
+
+def hexagonal() -> tuple[Packing, float]:
+    """Rows of equal grains, and the strain at which all contacts of one direction open.
+
+    Every grain is a centre of inversion, so every affine strain is in balance.
+    """
+    columns, rows, length = 7, 8, 6.9
+    a, h = length / columns, length / rows
+    sites = [(a * (i + 0.5 * (j % 2)), h * j) for j in range(rows) for i in range(columns)]
+    packing = Packing.from_positions(np.array(sites), np.ones(len(sites)), length)
+    return packing, (np.sqrt(1.0 - h * h) - 0.5 * a) / h
+
+
+def test_contacts_of_a_lattice_open_at_the_strain_of_pencil_and_paper():
+    packing, critical = hexagonal()
+    choices = Shear(strain=0.02, step=1e-3, smallest_step=1e-9)
+    assert 1e-3 < critical < 0.02
+    walk = walked(packing, B, choices)
+    event = walk.events[0]
+    low, high = (point.strain for point in event.points)
+    assert low < critical <= high
+    assert high - low == pytest.approx(1e-9, rel=1e-6)
+    assert event.kind & RIGIDITY_FELL
+    assert (event.opened, event.closed) == (packing.n, 0)
+    assert np.abs(event.displacement).max() < 1e-9
+
+
+@pytest.mark.parametrize("law", [ContactLaw("harmonic"), ContactLaw("hertz")], ids=law_name)
+def test_the_critical_strain_does_not_depend_on_the_first_step(law):
+    """Where a jump cannot come before; to the width of the bracket."""
+    packing = reference(f"{law.normal}_n64_phi0.860_seed2")[1]
+    brackets = []
+    for step in (1e-3, 1e-4):
+        walk = Walk.start(packing, interaction(law), Shear(0.2, step, 1e-8))
+        while not walk.events and not walk.done and walk.advance():
+            pass
+        brackets.append([point.strain for point in walk.events[0].points])
+    assert np.ptp(brackets, axis=0).max() <= 1.5e-8
+    assert np.diff(brackets, axis=1) == pytest.approx(1e-8, rel=1e-6)
+
+
+@pytest.mark.parametrize("law", [B, ContactLaw("harmonic")], ids=law_name)
+def test_a_walk_taken_up_again_ends_with_the_same_bytes(law):
+    packing = reference("harmonic_n64_phi0.860_seed2")[1]
+    choices = Shear(strain=0.01, step=1e-4, smallest_step=1e-7)
+    whole = row_of(walked(packing, law, choices))
+    walk, stops = Walk.start(packing, interaction(law), choices), 0
+    while not walk.done and walk.advance():
+        if walk.restartable:
+            walk, stops = pickle.loads(pickle.dumps(walk)), stops + 1
+    assert stops >= 2
+    again = row_of(walk)
+    assert whole.keys() == again.keys()
+    for name, value in whole.items():
+        assert np.asarray(value).tobytes() == np.asarray(again[name]).tobytes(), name
+
+
+def test_a_box_at_one_half_is_the_box_at_minus_one_half():
+    """One image further, γ = 1/2 and −1/2 are the same state: s_x → s_x + s_y."""
+    packing = crowd(3, strain=0.5, slip=0.3)
+    x, y = packing.fraction
+    other = replace(packing, fraction=np.stack([x + y, y]), strain=-0.5)
+    rule = interaction(LAWS[0])
+    one, two = (find_contacts(state) for state in (packing, other))
+    np.testing.assert_array_equal(one.i, two.i)
+    np.testing.assert_allclose(one.normal, two.normal, atol=1e-14)
+    forces = [net_force(packing, contacts, rule) for contacts in (one, two)]
+    np.testing.assert_allclose(*forces, atol=1e-13)
+    stiff = [jacobian(packing, contacts, rule).toarray() for contacts in (one, two)]
+    np.testing.assert_allclose(*stiff, atol=1e-13)
+
+
+def test_the_first_balance_must_be_stable():
+    with pytest.raises(ArithmeticError, match="no stable balance near the packing"):
+        first_balance(crowd(1), interaction(B), Shear())

@@ -1,0 +1,60 @@
+"""What is recorded of sheared states beside stress and rigidity: lost springs, lost symmetry."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sparse
+
+from grainmodes.kernels.laws import interaction
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.quasistatic import step_to
+from grainmodes.protocols.shear import Walk
+from grainmodes.protocols.sheared_state import reopened
+from grainmodes.shear_blocks import row_of
+from grainmodes.stability import asymmetry
+from specimens import reference
+
+B = ContactLaw("harmonic", "elastic", 1.0)
+CHOICES = Shear(strain=1e-3, step=1e-4, smallest_step=1e-8)
+
+
+@pytest.fixture(scope="module")
+def walk():
+    """A sheared packing, its springs loaded."""
+    walk = Walk.start(reference("harmonic_n64_phi0.900_seed1")[1], interaction(B), CHOICES)
+    while not walk.done and walk.advance():
+        pass
+    return walk
+
+
+def test_only_springs_that_start_anew_have_reopened(walk):
+    before = walk.now.balance
+    after, _ = step_to(before.packing.strain + 1e-5, before, CHOICES)
+    history, loads = after.packing.history, np.abs(before.packing.history.tangential_displacement)
+    assert np.array_equal(history.i, before.packing.history.i)
+    assert reopened(before.packing, after.packing) == 0
+    for count in (1, 3):
+        s = history.tangential_displacement.copy()
+        s[np.argsort(loads)[-count:]] = 0.0
+        renewed = replace(after.packing, history=replace(history, tangential_displacement=s))
+        assert reopened(before.packing, renewed) == count
+
+
+def test_loaded_springs_cost_the_jacobian_its_symmetry(walk):
+    """Of max|J − Jᵀ| no more than −(f_T/r) n tᵀ of all contacts of a grain."""
+    balance = walk.now.balance
+    row, whole = row_of(walk), balance.matrix.toarray()
+    contacts = balance.backbone_contacts
+    bent = np.abs(B.kt * contacts.displacement / contacts.distance)
+    difference = np.abs(whole - whole.T).max()
+    assert row["last_asymmetry"] == pytest.approx(difference / np.abs(whole).max())
+    assert 0.0 < difference <= 6.0 * bent.max()
+    assert row["last_complex_pairs"] >= 0
+
+
+def test_the_asymmetry_of_symmetric_and_empty_matrices_is_zero():
+    assert asymmetry(sparse.csc_array(np.array([[2.0, 1.0], [1.0, 0.0]]))) == 0.0
+    assert asymmetry(sparse.csc_array(np.array([[2.0, 1.0], [0.0, 0.0]]))) == 0.5
+    assert asymmetry(sparse.csc_array((4, 4))) == 0.0

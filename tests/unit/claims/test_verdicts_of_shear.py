@@ -1,0 +1,110 @@
+"""Every claim of paper B holds where it should, and falls, alone, where one number is doctored."""
+
+import json
+
+import numpy as np
+import pytest
+
+import claimed
+import claimed_shear
+from doctored_shear import DOCTORED, SECOND
+from grainmodes.claims import CLAIMS, check, paper_b
+from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED, NOT_RESOLVED
+
+NAMES = [f"B{number}" for number in range(1, 11)]
+NEVER = {"B2", "B5", "B7"}
+"""Claims on what no ensemble holds."""
+
+NEEDED = {
+    "B1": "curve_strain",
+    "B3": "curve_lowest_eigenvalue",
+    "B4": "curve_g_xy",
+    "B6": "event_asymmetry_after",
+    "B8": "curve_g_xy",
+    "B9": "event_reopened",
+    "B10": "g_simulated",
+}
+
+
+def verdicts(ensemble, claims=paper_b.CLAIMS):
+    return {verdict.claim: verdict for verdict in check(ensemble, claims)}
+
+
+def test_both_papers_stand_in_one_table():
+    found = verdicts(claimed_shear.ensemble(), CLAIMS)
+    assert list(found) == [*(f"A{number}" for number in range(1, 20)), *NAMES]
+    assert {name for name, v in found.items() if v.verdict == NOT_ASKED} == NEVER
+    assert {v.verdict for name, v in found.items() if name not in NEVER} == {HOLDS}
+
+
+@pytest.mark.parametrize(("name", "doctor"), [*DOCTORED.items(), *SECOND.items()])
+def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
+    ensemble = claimed_shear.ensemble()
+    doctor(ensemble)
+    found = verdicts(ensemble, CLAIMS)
+    fallen = {n: v.verdict for n, v in found.items() if v.verdict not in (HOLDS, NOT_ASKED)}
+    assert fallen == {name: CONTRADICTED}
+
+
+def test_a_simulation_that_differs_contradicts_the_rigidity_before_strain():
+    ensemble = claimed_shear.ensemble()
+    ensemble["g_simulated"] = 1.05 * ensemble["g_simulated"]
+    fallen = {n: v.verdict for n, v in verdicts(ensemble).items() if v.verdict != HOLDS}
+    assert fallen == {"B10": CONTRADICTED} | dict.fromkeys(NEVER, NOT_ASKED)
+
+
+@pytest.mark.parametrize("name", NEEDED)
+def test_what_the_ensemble_lacks_is_not_asked_and_named(name):
+    verdict = verdicts(claimed_shear.ensemble().drop_vars(NEEDED[name]))[name]
+    assert verdict.verdict == NOT_ASKED
+    assert NEEDED[name] in verdict.explanation
+
+
+def test_hertzian_grains_are_not_those_of_paper_b():
+    ensemble = claimed_shear.ensemble()
+    ensemble.attrs["config"] = json.dumps({})
+    found = verdicts(ensemble).values()
+    assert {verdict.verdict for verdict in found} == {NOT_ASKED}
+    assert sum("harmonic grains" in verdict.explanation for verdict in found) == 7
+
+
+def test_without_shear_only_the_rigidity_before_strain_is_asked():
+    ensemble = claimed.ensemble()
+    ensemble.attrs["config"] = json.dumps({"contact_law": {"normal": "harmonic"}})
+    found = verdicts(ensemble)
+    assert {name for name, v in found.items() if v.verdict != NOT_ASKED} == {"B10"}
+
+
+def test_one_sample_and_no_event_decide_nothing():
+    one = claimed_shear.ensemble().isel(seed=[0])
+    assert {v.verdict for v in verdicts(one).values()} <= {NOT_ASKED, NOT_RESOLVED}
+    calm = claimed_shear.ensemble()
+    for name in list(calm):
+        if name.startswith("event_"):
+            calm[name] = calm[name] * np.nan
+    found = verdicts(calm)
+    assert {found[name].verdict for name in ("B3", "B4", "B6", "B9")} == {NOT_ASKED}
+    assert found["B8"].verdict in (HOLDS, CONTRADICTED)
+
+
+def test_failed_samples_are_left_out():
+    ensemble = claimed_shear.ensemble()
+    ensemble["curve_g_xy"][..., 0, :] *= 3.0
+    ensemble["converged"][..., 0] = 0.0
+    assert {v.verdict for v in verdicts(ensemble).values()} == {HOLDS, NOT_ASKED}
+
+
+def test_the_same_network_before_and_after_an_event_is_told():
+    ensemble = claimed_shear.ensemble()
+    ensemble["event_reopened"] = ensemble["event_opened"].copy()
+    ensemble["event_opened"] = 0.0 * ensemble["event_opened"]
+    verdict = verdicts(ensemble)["B9"]
+    assert verdict.verdict == HOLDS
+    assert "30 did both; in 1 ± 0 of the events" in verdict.explanation
+
+
+def test_complex_pairs_are_counted():
+    ensemble = claimed_shear.ensemble()
+    pairs = ensemble["event_complex_pairs_after"]
+    ensemble["event_complex_pairs_after"] = pairs + (pairs["event"] == 2)
+    assert "complex pairs in 6 of 30 states after events" in verdicts(ensemble)["B6"].explanation

@@ -1,0 +1,90 @@
+"""Curves of sheared samples as they are drawn, against the numbers they were made from."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import claimed_shear
+import synthetic
+from grainmodes.ensemble import open_ensemble
+from grainmodes.ensemble.curves import curves, points_with_curves
+from grainmodes.figures import rigidity_mean, rigidity_strain, stress_strain
+from grainmodes.figures.selection import Options
+
+
+@pytest.fixture(scope="module")
+def sheared(tmp_path_factory):
+    """Three samples each of two points, one of them not jammed."""
+    stages = ("packings", "shear")
+    folder = tmp_path_factory.mktemp("sheared")
+    path = synthetic.ensemble(folder, phis=(0.83, 0.9), kts=(1e-4, 1.0), seeds=3, stages=stages)
+    with open_ensemble(path) as dataset:
+        yield dataset
+
+
+def test_a_curve_knows_what_happened_in_its_steps(sheared):
+    assert points_with_curves(sheared) == [(16, 0.9, 1e-4), (16, 0.9, 1.0)]
+    of = curves(sheared, 16, 0.9, 1.0)
+    assert sorted(of) == [0, 1, 2]
+    curve = of[1]
+    assert len(curve.strain) == 13
+    assert curve.strain[:-1][curve.event] == 4.01e-3
+    assert curve.strain[:-1][curve.changed] == 8e-3
+    assert curve.quiet.sum() == 10
+    assert_allclose(curve.missing, np.where(curve.event, -1e-3, 0.0), atol=1e-15)
+    (approach,) = curve.approaches
+    assert_allclose(curve.strain[approach.states], [2e-3, 3e-3, 4e-3, 4.01e-3])
+
+
+def test_an_approach_begins_after_the_last_change():
+    curve = curves(claimed_shear.ensemble(), 64, 0.9, 1.0)[0]
+    for first, last in curve.approaches:
+        assert curve.event[last]
+        assert curve.quiet[first:last].all()
+        assert curve.strain[last] - curve.strain[first] <= 2.5 * curve.longest
+
+
+def test_slopes_leave_events_out(sheared):
+    curve = curves(sheared, 16, 0.9, 1.0)[0]
+    edges = np.array([0.0, 5e-3, 1.1e-2, 2e-2])
+    assert_allclose(curve.slopes(curve.rise, edges), [0.3, 0.3, np.nan])
+    assert_allclose(curve.slopes(curve.predicted, edges), [0.3, 0.3, np.nan])
+
+
+def test_stress_of_theory_is_that_of_the_state_before(sheared):
+    table = stress_strain.table(sheared, Options(seed=2, kt=(1e-4,)))
+    assert set(table["seed"]) == {2}
+    assert set(table["kt"]) == {1e-4}
+    assert table["event"].sum() == 1
+    fallen = table[table["event"] == 1].iloc[0]
+    assert fallen["stress_theory"] - fallen["stress"] == pytest.approx(1e-3)
+    others = table[table["event"] == 0].iloc[1:]
+    assert_allclose(others["stress_theory"], others["stress"], rtol=1e-12)
+
+
+def test_slope_of_the_stress_is_left_out_in_events(sheared):
+    table = rigidity_strain.table(sheared, Options())
+    assert table["strain"].max() == pytest.approx(5e-3)
+    assert_allclose(table["rigidity_simulated"].dropna(), 0.3)
+    assert table.loc[table["event"] == 1, "rigidity_simulated"].isna().all()
+    assert_allclose(table["lowest_eigenvalue"].iloc[[0, -1]], [0.2, 0.15])
+
+
+def test_mean_rigidity_is_that_of_theory_where_nothing_is_missing(sheared):
+    table = rigidity_mean.table(sheared, Options())
+    means = table.pivot(index="strain", columns="kind", values="rigidity")
+    assert_allclose(means["simulation"], means["theory"])
+    assert set(table["samples"]) == {3}
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (Options(seed=9), "seed = 9: of this ensemble, the figure can show 0, 1, 2"),
+        (Options(phi=0.83), "phi = 0.83: of this ensemble, the figure can show 0.9"),
+        (Options(kt=(1.0, 2.0)), "kt: the figure shows one value, asked for are 2"),
+    ],
+)
+def test_a_sample_that_is_not_there_is_refused(sheared, options, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        stress_strain.table(sheared, options)
