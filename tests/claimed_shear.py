@@ -64,6 +64,12 @@ def add_stress(dataset: xr.Dataset, added: np.ndarray) -> None:
     """Raise both components of the stress of every sample by (M,) or (S, M)."""
     for name in ("curve_stress_xy", "curve_stress_yx"):
         dataset[name].loc[PLACE] += added
+    dataset["unbracketed_stress"].loc[PLACE] += added[..., on_grid(strains())]
+
+
+def on_grid(strain: np.ndarray) -> np.ndarray:
+    """Which states lie on the grid of Δγ_in."""
+    return np.abs(strain / STEP - np.round(strain / STEP)) < 1e-9
 
 
 def _sample(seed: int) -> dict[str, object]:
@@ -75,6 +81,7 @@ def _sample(seed: int) -> dict[str, object]:
     stress = stress_of(strain, g) - DROP * passed
     lowest = factor * (0.2 - 0.1 * strain) * 0.9**passed
     changes = np.searchsorted(strain, CHANGES)
+    grid = on_grid(strain)
     one = np.ones(len(before))
     return {
         "curve_count": len(strain),
@@ -84,6 +91,8 @@ def _sample(seed: int) -> dict[str, object]:
         "curve_g_xy": g,
         "curve_g_yx": g,
         "curve_lowest_eigenvalue": lowest,
+        "unbracketed_strain": strain[grid],
+        "unbracketed_stress": (stress * (1.0 + 1e-4 * factor))[grid],
         "event_kind": one,
         "event_strain_before": strain[before],
         "event_opened": one,

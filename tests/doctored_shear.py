@@ -53,8 +53,13 @@ def no_contact_changes(ensemble):
     ensemble["event_opened"] = 0.0 * ensemble["event_opened"]
 
 
+def other_without_brackets(ensemble):
+    ensemble["unbracketed_stress"] = 1.05 * ensemble["unbracketed_stress"]
+
+
 DOCTORED = {
     "B1": theory_off,
+    "B2": other_without_brackets,
     "B3": trend_before_events,
     "B4": singular_rigidity,
     "B6": skewed,

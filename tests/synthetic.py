@@ -177,6 +177,8 @@ def _shear(n, phi, kt, size, draws):
         "curve_strain": one * strain,
         "curve_stress_xy": stress + 1e-4,
         "curve_stress_yx": stress - 1e-4,
+        "unbracketed_strain": one * strain,
+        "unbracketed_stress": stress + 1e-5,
         "curve_g_xy": g,
         "curve_g_yx": g,
         "curve_lowest_eigenvalue": one * (0.2 - 0.05 * after),

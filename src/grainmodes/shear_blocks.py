@@ -8,7 +8,7 @@ its state alone determines what follows (`Walk.restartable`).
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Protocol
 
 import numpy as np
@@ -16,6 +16,7 @@ import numpy as np
 from grainmodes.dataset.files import Block
 from grainmodes.forces import is_frictionless
 from grainmodes.kernels.laws import Interaction, interaction
+from grainmodes.packing import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear import Walk
@@ -32,17 +33,21 @@ MOST_FOR_PAIRS = 1200
 class Keeper(Protocol):
     """Where walks are kept between two runs."""
 
-    def kept(self, seed: int) -> Walk | None:
-        """The walk of a sample as far as it came, if one was kept."""
+    def kept(self, name: str) -> Walk | None:
+        """The walk of this name as far as it came, if one was kept."""
 
-    def watch(self, seed: int, walk: Walk) -> None:
+    def watch(self, name: str, walk: Walk) -> None:
         """Called after every step: keep the walk if it is time to, and `restartable`."""
 
 
 def shear_block(
-    packings: Block, law: ContactLaw, choices: Shear, keeper: Keeper | None = None
+    packings: Block,
+    law: ContactLaw,
+    choices: Shear,
+    unbracketed: bool = False,
+    keeper: Keeper | None = None,
 ) -> Block:
-    """The stress-strain curve of every packing, up to `choices.strain`."""
+    """The stress-strain curve of every packing, and once more with `unbracketed` events."""
     rule = interaction(law)
 
     def sample(number: int) -> dict[str, object]:
@@ -50,14 +55,34 @@ def shear_block(
         seed = seed_of(packings, number)
         if not jammed:
             return {"curve_count": 0, "jammed": False, "converged": True}
-        walk = (keeper and keeper.kept(seed)) or Walk.start(packing, rule, choices)
-        while not walk.done and walk.advance():
-            if keeper:
-                keeper.watch(seed, walk)
-        return row_of(walk) | ({} if walk.done else {"failure": walk.ending})
+        walk = walked(packing, rule, choices, keeper, f"seed-{seed}")
+        row = row_of(walk) | ({} if walk.done else {"failure": walk.ending})
+        if unbracketed:
+            coarse = replace(choices, smallest_step=choices.step)
+            row |= _unbracketed(walked(packing, rule, coarse, keeper, f"seed-{seed}-unbracketed"))
+        return row
 
-    config = {"law": asdict(law), "shear": asdict(choices)}
+    config = {"law": asdict(law), "shear": asdict(choices), "unbracketed": unbracketed}
     return response_block(packings, "shear", config, law, sample)
+
+
+def walked(
+    packing: Packing, rule: Interaction, choices: Shear, keeper: Keeper | None, name: str
+) -> Walk:
+    """A walk as far as it goes, taken up where its keeper has it."""
+    walk = (keeper and keeper.kept(name)) or Walk.start(packing, rule, choices)
+    while not walk.done and walk.advance():
+        if keeper:
+            keeper.watch(name, walk)
+    return walk
+
+
+def _unbracketed(walk: Walk) -> dict[str, object]:
+    """The stress of a walk whose events are not bracketed."""
+    return {
+        "unbracketed_strain": [p.strain for p in walk.curve],
+        "unbracketed_stress": [(p.stress[0, 1] + p.stress[1, 0]) / 2.0 for p in walk.curve],
+    }
 
 
 def row_of(walk: Walk) -> dict[str, object]:

@@ -137,22 +137,22 @@ def test_a_killed_shear_goes_on_and_ends_with_the_same_bytes(tmp_path):
 def test_a_walk_of_other_choices_or_a_broken_file_is_passed_over(tmp_path):
     walk = Walk.start(reference(SMALL)[1], interaction(LAW), CHOICES)
     keeping = Keeping(tmp_path / "x.nc", (LAW, CHOICES), seconds=-1.0)
-    keeping.kept(0)
-    keeping.watch(0, walk)
-    assert Keeping(tmp_path / "x.nc", (LAW, CHOICES), 1.0).kept(0).now.units == 0
-    assert Keeping(tmp_path / "x.nc", (LAW, Shear()), 1.0).kept(0) is None
-    (tmp_path / ".x.nc.0000.kept").write_bytes(b"nonsense")
-    assert Keeping(tmp_path / "x.nc", (LAW, CHOICES), 1.0).kept(0) is None
+    keeping.kept("seed-0")
+    keeping.watch("seed-0", walk)
+    assert Keeping(tmp_path / "x.nc", (LAW, CHOICES), 1.0).kept("seed-0").now.units == 0
+    assert Keeping(tmp_path / "x.nc", (LAW, Shear()), 1.0).kept("seed-0") is None
+    (tmp_path / ".x.nc.seed-0.kept").write_bytes(b"nonsense")
+    assert Keeping(tmp_path / "x.nc", (LAW, CHOICES), 1.0).kept("seed-0") is None
 
 
 def test_a_line_says_how_far_a_walk_is(tmp_path, capsys):
     keeping = Keeping(tmp_path / "x.nc", (LAW, CHOICES), seconds=-1.0)
-    walk = keeping.kept(3) or Walk.start(reference(SMALL)[1], interaction(LAW), CHOICES)
+    walk = keeping.kept("seed-3") or Walk.start(reference(SMALL)[1], interaction(LAW), CHOICES)
     while walk.now.strain < 0.005 or not walk.restartable:
         walk.advance()
-    keeping.watch(3, walk)
+    keeping.watch("seed-3", walk)
     line = capsys.readouterr().err
-    pattern = r"seed 3: strain 0\.\d+ of 0\.1, \d+ events, \d+ states per second, \d+ min left\n"
+    pattern = r"seed-3: strain 0\.\d+ of 0\.1, \d+ events, \d+ states per second, \d+ min left\n"
     assert re.fullmatch(pattern, line)
 
 
@@ -162,3 +162,13 @@ def test_the_block_reads_back(tmp_path, sheared):
     assert back.attributes["stage"] == "shear"
     for name, array in sheared.variables.items():
         np.testing.assert_array_equal(back.variables[name], array)
+
+
+def test_a_shear_without_brackets_stands_beside_it():
+    choices = Shear(strain=0.03, step=1e-3, smallest_step=1e-6)
+    one = packings(reference(LOOSE)[1])
+    values = shear_block(one, LAW, choices, unbracketed=True).variables
+    assert values["unbracketed_strain"].shape == (1, 31)
+    alone = shear_block(one, LAW, Shear(strain=0.03, step=1e-3, smallest_step=1e-3)).variables
+    stress = 0.5 * (alone["curve_stress_xy"] + alone["curve_stress_yx"])
+    np.testing.assert_array_equal(values["unbracketed_stress"], stress)

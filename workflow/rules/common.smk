@@ -99,6 +99,12 @@ def first_packings(wildcards):
     return f"{STUDY}/packings/{BLOCK}".format(seeds=seeds, **dict(wildcards.items()))
 
 
+def shear_settings(wildcards):
+    """The settings of a shear, done twice where the point's grid asks for it."""
+    asked = scene.grid_at(*point_of(wildcards)).observables
+    return scene.settings("shear", unbracketed=asked.unbracketed)
+
+
 def spectrum_settings(stage):
     """The settings of a spectrum, whose kind is that of the point's grid."""
     return lambda wildcards: scene.settings(stage, scene.spectrum_kind(*point_of(wildcards)))

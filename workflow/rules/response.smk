@@ -99,7 +99,7 @@ rule shear:
     output:
         f"{STUDY}/shear/{RESPONSE}",
     params:
-        settings=scene.settings("shear"),
+        settings=shear_settings,
     message:
         f"Shear at {AT}."
     shell:

@@ -1,6 +1,6 @@
 """Long walks kept beside their output, and a line that says how far they are.
 
-A walk is pickled to `.<output>.<seed>.kept`, written whole or not at all. It is taken up again only
+A walk is pickled to `.<output>.<name>.kept`, written whole or not at all. It is taken up again only
 by the same code with the same choices; anything else on that path is passed over. An interrupted
 sample so goes on where it stood some minutes before, and ends with the same bytes.
 """
@@ -34,9 +34,9 @@ class Keeping:
         self._mark = (code_version(), choices)
         self._kept: set[Path] = set()
 
-    def kept(self, seed: int) -> Walk | None:
-        """The walk of a sample as far as it came, if this code kept one."""
-        walk = self._read(self._path(seed))
+    def kept(self, name: str) -> Walk | None:
+        """The walk of this name as far as it came, if this code kept one."""
+        walk = self._read(self._path(name))
         self._started = self._kept_at = self._said_at = time.monotonic()
         self._from = (walk.now.strain, len(walk.curve)) if walk else (0.0, 0)
         return walk
@@ -51,35 +51,35 @@ class Keeping:
             return None  # a foreign or a broken file: the sample begins anew
         return walk if mark == self._mark else None
 
-    def watch(self, seed: int, walk: Walk) -> None:
+    def watch(self, name: str, walk: Walk) -> None:
         """Keep the walk if it is time to; say how far it is."""
         now = time.monotonic()
         if now - self._kept_at > self._seconds and walk.restartable:
-            path = self._path(seed)
+            path = self._path(name)
             with replaced(path) as partial:
                 partial.write_bytes(pickle.dumps((self._mark, walk)))
             self._kept.add(path)
             self._kept_at = now
-            self._say(seed, walk, now)
+            self._say(name, walk, now)
         elif sys.stderr.isatty() and now - self._said_at > LINE_EVERY:
-            self._say(seed, walk, now)
+            self._say(name, walk, now)
 
     def forget(self) -> None:
         """Remove what was kept: the output is complete."""
         for path in self._kept:
             path.unlink(missing_ok=True)
 
-    def _path(self, seed: int) -> Path:
-        return self._output.with_name(f".{self._output.name}.{seed:04d}.kept")
+    def _path(self, name: str) -> Path:
+        return self._output.with_name(f".{self._output.name}.{name}.kept")
 
-    def _say(self, seed: int, walk: Walk, now: float) -> None:
+    def _say(self, name: str, walk: Walk, now: float) -> None:
         self._said_at = now
         strain, last, elapsed = walk.now.strain, walk.choices.strain, now - self._started
         first, states = self._from
         left = (last - strain) / (strain - first) * elapsed if strain > first else float("inf")
         pace = (len(walk.curve) - states) / elapsed
         print(
-            f"seed {seed}: strain {strain:.4f} of {last:g}, {len(walk.events)} events, "
+            f"{name}: strain {strain:.4f} of {last:g}, {len(walk.events)} events, "
             f"{pace:.0f} states per second, {left / 60.0:.0f} min left",
             file=sys.stderr,
             flush=True,

@@ -122,9 +122,10 @@ def shear(arguments: Namespace) -> None:
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law, choices = scene.law_at(arguments.kt), scene.protocol.shear
+    unbracketed = scene.grids[0].observables.unbracketed
     keeping = Keeping(arguments.output, (law, choices), arguments.keep_every)
     with _opened(arguments.packings, "packings") as packings:
-        block = shear_block(packings, law, choices, keeping)
+        block = shear_block(packings, law, choices, unbracketed, keeping)
     write_block(arguments.output, block)
     keeping.forget()
 

@@ -23,6 +23,7 @@ class Observables:
     fields: bool = False
     probes: bool = False
     shear: bool = False
+    unbracketed: bool = False
     close_up: bool = False
 
     @property
@@ -36,6 +37,7 @@ class Observables:
             "hessian": self.hessian,
             "fields": self.fields,
             "shear": self.shear,
+            "unbracketed": self.shear and self.unbracketed,
             "close_up": self.close_up,
         }
         return {word for word, here in offered.items() if here}

@@ -91,6 +91,7 @@ NEEDED = {
     "hessian": "observables.hessian: true",
     "fields": "observables.fields: true",
     "shear": "observables.shear: true",
+    "unbracketed": "observables.unbracketed: true",
     "close_up": "observables.close_up: true",
     "friction": "these observables at a kt above 0",
     "frictionless": "these observables at kt = 0",

@@ -90,11 +90,11 @@ class Scene:
         """The contact law with this tangential stiffness."""
         return replace(self.law, kt=kt)
 
-    def settings(self, stage: str, kind: str = "modes") -> str:
+    def settings(self, stage: str, kind: str = "modes", unbracketed: bool = False) -> str:
         """The part of the scene that a stage depends on, as JSON: the argument of its command.
 
         Everything a stage ignores stays out, so that changing it does not make the stage again.
-        `kind` is that of the spectrum.
+        `kind` is that of the spectrum, `unbracketed` the observable beside the shear.
         """
         law = {key: value for key, value in asdict(self.law).items() if key != "kt"}
         protocol = asdict(self.protocol)
@@ -108,7 +108,8 @@ class Scene:
             "spectrum_hessian": spectrum,
             "fields": _part(law, protocol, "rattlers", "step_strain"),
             "probes": _part(law, protocol, "rattlers", "step_strain"),
-            "shear": _part(law, protocol, "shear"),
+            "shear": _part(law, protocol, "shear")
+            | {"observables": {"shear": True, "unbracketed": unbracketed}},
             "close_up": _part(law, protocol, "shear"),
             "ensemble": _part(law, protocol, *protocol) | {"study": self.study},
         }

@@ -40,6 +40,12 @@ NAMES = {
         STATE, "f8", MODULUS, "smallest eigenvalue of the Jacobian but its translations"
     ),
     "curve_count": Variable(BLOCK, "i8", "1", "number of states of the curve"),
+    "unbracketed_strain": Variable(
+        ("seed", "unbracketed_state"), "f8", "1", "strain of a state, events not bracketed"
+    ),
+    "unbracketed_stress": Variable(
+        ("seed", "unbracketed_state"), "f8", MODULUS, "(sigma_xy + sigma_yx) / 2 of such a state"
+    ),
     # events
     "event_count": Variable(BLOCK, "i8", "1", "number of plastic events"),
     "event_kind": Variable(

@@ -30,7 +30,7 @@ STAGES = (
 )
 """Values of the attribute `stage`, in the order in which names win."""
 
-SERIES = ("mode", "edge", "bin", "probe", "state", "event", "change")
+SERIES = ("mode", "edge", "bin", "probe", "state", "unbracketed_state", "event", "change")
 
 PER_SAMPLE = (("seed",), *(("seed", name) for name in SERIES))
 """Dimensions of the variables that a point keeps."""

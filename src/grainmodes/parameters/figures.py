@@ -75,6 +75,10 @@ FIGURES = {
     "stress_strain": Figure(
         "Stress against strain in one sample (paper B, Figs. 1, 8)", ("shear",)
     ),
+    "stress_brackets": Figure(
+        "Stress against strain, events bracketed and not (paper B, Fig. 2)",
+        ("shear", "unbracketed"),
+    ),
     "rigidity_strain": Figure(
         "Rigidity and smallest eigenvalue at small strain (paper B, Fig. 7)", ("shear",)
     ),

@@ -7,7 +7,7 @@ Strains are whole numbers of Δγ_Th, so that they are the same on every path.
 
 | an event is      | when                                                           |
 | ---------------- | -------------------------------------------------------------- |
-| a stress drop    | σ falls, and g had not been negative        B, Sec. IV (i)     |
+| a stress drop    | σ falls, by more than a negative g explains B, Sec. IV (i)     |
 | a rigidity drop  | g falls by more than 1e-2 k_N               B, Sec. IV (ii)    |
 
 σ = (σ_xy + σ_yx)/2 and g = dσ/dγ of the loading protocol in use, with the f_y y_ij that B (43)
@@ -122,7 +122,8 @@ class Walk:
 
 def kind_of(before: State, after: State) -> int:
     """What happened between two states: 0, or the sum of B's two signs of a plastic event."""
-    fell = after.sigma < before.sigma and before.g >= 0.0
+    smoothly = min(0.0, before.g, after.g) * (after.strain - before.strain)
+    fell = after.sigma - before.sigma < 2.0 * smoothly
     softened = before.g - after.g > RIGIDITY_DROP
     return STRESS_FELL * fell + RIGIDITY_FELL * softened
 

@@ -8,7 +8,7 @@ import claimed_shear
 import synthetic
 from grainmodes.ensemble import open_ensemble
 from grainmodes.ensemble.curves import curves, points_with_curves
-from grainmodes.figures import rigidity_mean, rigidity_strain, stress_strain
+from grainmodes.figures import rigidity_mean, rigidity_strain, stress_brackets, stress_strain
 from grainmodes.figures.selection import Options
 
 
@@ -88,3 +88,12 @@ def test_mean_rigidity_is_that_of_theory_where_nothing_is_missing(sheared):
 def test_a_sample_that_is_not_there_is_refused(sheared, options, sentence):
     with pytest.raises(ValueError, match=sentence):
         stress_strain.table(sheared, options)
+
+
+def test_both_stresses_stand_on_the_grid():
+    table = stress_brackets.table(claimed_shear.ensemble(), Options(n=64))
+    states = np.round(table["strain"] / claimed_shear.STEP)
+    np.testing.assert_array_equal(states, np.arange(len(table)))
+    ratio = table["unbracketed"] / table["bracketed"]
+    np.testing.assert_allclose(ratio[1:], 1.0, atol=2e-4)
+    assert set(table.columns) == set(stress_brackets.COLUMNS)

@@ -11,11 +11,22 @@ import numpy as np
 
 from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
 from grainmodes.claims.estimates import mean
-from grainmodes.claims.paper_b.sheared import harmonic
+from grainmodes.claims.paper_b.sheared import SAME, harmonic
 from grainmodes.claims.samples import Samples, at
 
 EXACT = -12.0
 """log10 of max|J - Jᵀ| / max|J| below which it is rounding."""
+
+UNBRACKETED = ("unbracketed_strain", "unbracketed_stress")
+
+RANGES = (
+    ("γ ≤ 0.08", 0.0, 0.08, (-np.inf, SAME)),
+    ("γ > 0.08", 0.08, np.inf, (SAME, np.inf)),
+)
+"""Where the two curves are compared, and the interval of their difference."""
+
+ROUNDING = 1e-12
+"""Strains that are the same may differ by so much."""
 
 ZERO = 1e-17
 """What stands for no difference at all."""
@@ -25,9 +36,31 @@ ZERO = 1e-17
 def independent_of_smallest_step(ensemble) -> Outcome:
     """Below γ = 0.08 the stress does not depend on Δγ_Th, above it does (Fig. 2).
 
-    Criterion: |difference| of σ for Δγ_Th = 1e-4 and 1e-8 below 1 % of σ.
+    Root mean square of the difference of σ with events bracketed and not, in parts of that of σ.
+
+    Criterion: below 1 % up to γ = 0.08, above 1 % beyond.
     """
-    raise NotAsked("shear with a second Δγ_Th: one study has one")
+    samples = harmonic(ensemble, "curve_strain", "unbracketed_strain")
+    parts = []
+    for point in samples.points("unbracketed_strain"):
+        names = ("curve_strain", "curve_stress_xy", "curve_stress_yx")
+        of = [samples.of(name, *point) for name in (*names, *UNBRACKETED)]
+        for where, low, high, interval in RANGES:
+            off = np.array([_apart(*rows, low, high) for rows in zip(*of, strict=True)])
+            if np.isfinite(off).any():
+                parts.append(Part(f"{where}, {at(*point)}", mean(off[np.isfinite(off)]), *interval))
+    return Outcome(parts)
+
+
+def _apart(strain, stress_xy, stress_yx, coarse_strain, coarse_stress, low, high) -> float:
+    """Relative difference of two curves on the grid of Δγ_in in (low, high]; NaN without any."""
+    grid = (coarse_strain > low + ROUNDING) & (coarse_strain < high + ROUNDING)
+    if not grid.any():
+        return np.nan
+    place = np.searchsorted(strain, coarse_strain[grid] - ROUNDING)
+    fine = 0.5 * (stress_xy + stress_yx)[np.minimum(place, len(strain) - 1)]
+    with np.errstate(invalid="ignore"):
+        return float(np.sqrt(np.nanmean((fine - coarse_stress[grid]) ** 2) / np.nanmean(fine**2)))
 
 
 @claim("B5", unit="1")
