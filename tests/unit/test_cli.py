@@ -70,6 +70,7 @@ def test_help_names_every_command(capsys):
         (["pack", "x.nc", "--phi", "0.9", "--settings", "{", "-o", "p"], "'{' is not JSON"),
         (["pack", "x.nc", "--phi", "0.9", "--settings", "[]", "-o", "p"], "no JSON object"),
         (["figure", "g_psi", "x.nc", "-o", "g"], "invalid choice: 'g_psi'"),
+        (["shear", "x.nc", "--kt", "1", "--keep-every", "0", "-o", "s"], "no number of seconds"),
     ],
 )
 def test_bad_usage(capsys, words, sentence):

@@ -114,7 +114,7 @@ def test_a_point_keeps_curves_and_events_but_no_grains(sheared):
 
 def command(folder, name: str) -> list[str]:
     words = ["shear", str(folder / "packings.nc"), "--kt", "1", "--settings", json.dumps(SETTINGS)]
-    return [*words, "--keep-every", "1", "-o", str(folder / name)]
+    return [*words, "--keep-every", "0.05", "-o", str(folder / name)]
 
 
 def test_a_killed_shear_goes_on_and_ends_with_the_same_bytes(tmp_path):

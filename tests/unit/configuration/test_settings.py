@@ -12,7 +12,11 @@ from scenes import (
 )
 
 SPECTRA = {"spectrum", "spectrum_rattlers", "spectrum_hessian"}
-STAGES = ["compress", "rigidity", "step_strain", *sorted(SPECTRA), "fields", "probes", "ensemble"]
+SHEARED = {"shear", "close_up"}
+STAGES = [
+    *("compress", "rigidity", "step_strain", "fields", "probes", "ensemble"),
+    *sorted(SPECTRA | SHEARED),
+]
 DEPENDENCE = {
     "protocol.compression.phi_step": (5e-5, {"compress", "ensemble"}),
     "protocol.rattlers.threshold": (
@@ -20,6 +24,7 @@ DEPENDENCE = {
         {"rigidity", "fields", "probes", "ensemble"} | SPECTRA,
     ),
     "protocol.step_strain.strain": (1e-5, {"step_strain", "fields", "probes", "ensemble"}),
+    "protocol.shear.strain": (0.2, SHEARED | {"ensemble"}),
     "protocol.spectrum.fineness": (1.0, SPECTRA | {"ensemble"}),
     "contact_law.normal": ("harmonic", set(STAGES)),
     "grid.seeds": (8, set()),

@@ -96,8 +96,8 @@ def _shear(commands) -> None:
     command = _response(commands, "shear", "stages:shear", sentence)
     command.add_argument(
         "--keep-every",
-        type=options.positive,
-        default=120,
+        type=options.seconds,
+        default=120.0,
         metavar="SECONDS",
         help="how often to keep how far a sample has come, beside the output file",
     )
