@@ -37,6 +37,9 @@ LONGEST = 100.0
 LAST = 4
 """So many of the largest sizes are fitted: small ones are governed by overheads."""
 
+KEPT = {"close_up"}
+"""Works whose cost hangs on where the first event of a sample lies, more than on N."""
+
 LEAST = 1.0
 """MB: less cannot be told from a bare job."""
 
@@ -116,6 +119,8 @@ def line(work: str, kept: dict, folder: Path, bare: float) -> str:
     """The line of a work in the table, measured, or the row of the table before."""
     if work.endswith("_pardiso") and find_spec("pypardiso") is None:
         values, words = kept, "kept: pypardiso is not installed"
+    elif work in KEPT:
+        values, words = kept, "kept: not measured"
     else:
         values, words = row(work, folder, bare)
     flow = yaml.safe_dump(values, default_flow_style=True, sort_keys=False, width=999)
