@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from grainmodes.cli import main
-from grainmodes.cli.keeping import Keeping
+from grainmodes.cli.keeping import Keeping, fingerprint
 from grainmodes.dataset.files import Block, read_block, write_block
 from grainmodes.ensemble.point import merge_blocks
 from grainmodes.forces import largest, net_force
@@ -143,6 +143,18 @@ def test_a_walk_of_other_choices_or_a_broken_file_is_passed_over(tmp_path):
     assert Keeping(tmp_path / "x.nc", (LAW, Shear()), 1.0).kept("seed-0") is None
     (tmp_path / ".x.nc.seed-0.kept").write_bytes(b"nonsense")
     assert Keeping(tmp_path / "x.nc", (LAW, CHOICES), 1.0).kept("seed-0") is None
+
+
+def test_a_walk_from_another_packing_is_passed_over(tmp_path):
+    """Packings made anew in another way have the same name and place."""
+    one = packings(reference(LOOSE)[1])
+    marks = [fingerprint(of) for of in (one, one, packings(reference(LOOSE)[1].at(0.865)))]
+    assert marks[0] == marks[1] != marks[2]
+    keeping = Keeping(tmp_path / "x.nc", (LAW, CHOICES, marks[0]), seconds=-1.0)
+    keeping.kept("seed-0")
+    keeping.watch("seed-0", Walk.start(reference(SMALL)[1], interaction(LAW), CHOICES))
+    again = [Keeping(tmp_path / "x.nc", (LAW, CHOICES, mark), 1.0).kept("seed-0") for mark in marks]
+    assert [walk is None for walk in again] == [False, False, True]
 
 
 def test_a_line_says_how_far_a_walk_is(tmp_path, capsys):

@@ -1,18 +1,23 @@
 """Long walks kept beside their output, and a line that says how far they are.
 
 A walk is pickled to `.<output>.<name>.kept`, written whole or not at all. It is taken up again only
-by the same code with the same choices; anything else on that path is passed over. An interrupted
-sample so goes on where it stood some minutes before, and ends with the same bytes.
+by the same code, from the same packings with the same choices; anything else on that path is passed
+over. An interrupted sample so goes on where it stood some minutes before, and ends with the same
+bytes.
 """
 
 from __future__ import annotations
 
+import hashlib
 import pickle
 import sys
 import time
 from pathlib import Path
 
+import numpy as np
+
 from grainmodes.atomic import replaced
+from grainmodes.dataset.files import Block
 from grainmodes.protocols.shear import Walk
 from grainmodes.provenance import code_version
 
@@ -20,18 +25,26 @@ LINE_EVERY = 2.0
 """Seconds between two lines on a terminal; elsewhere one stands for every walk kept."""
 
 
+def fingerprint(packings: Block) -> str:
+    """Tells the packings of a block from any others."""
+    digest = hashlib.sha256()
+    for name, array in sorted(packings.variables.items()):
+        digest.update(name.encode() + np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()
+
+
 class Keeping:
     """Keeps the walks of one output file.
 
     Args:
         output: the file that will hold the finished block.
-        choices: all that a walk depends on, besides its packing and the code.
+        start: all that a walk depends on besides the code: law, choices, packings.
         seconds: how often a walk is kept.
     """
 
-    def __init__(self, output: Path, choices: tuple, seconds: float):
+    def __init__(self, output: Path, start: tuple, seconds: float):
         self._output, self._seconds = output, seconds
-        self._mark = (code_version(), choices)
+        self._mark = (code_version(), start)
         self._kept: set[Path] = set()
 
     def kept(self, name: str) -> Walk | None:

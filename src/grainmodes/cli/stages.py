@@ -117,14 +117,15 @@ def fields(arguments: Namespace) -> None:
 
 def shear(arguments: Namespace) -> None:
     """Packings → their curves of stress and strain, and their events."""
-    from grainmodes.cli.keeping import Keeping
+    from grainmodes.cli.keeping import Keeping, fingerprint
     from grainmodes.shear_blocks import shear_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law, choices = scene.law_at(arguments.kt), scene.protocol.shear
     unbracketed = scene.grids[0].observables.unbracketed
-    keeping = Keeping(arguments.output, (law, choices), arguments.keep_every)
     with _opened(arguments.packings, "packings") as packings:
+        start = law, choices, fingerprint(packings)
+        keeping = Keeping(arguments.output, start, arguments.keep_every)
         block = shear_block(packings, law, choices, unbracketed, keeping)
     write_block(arguments.output, block)
     keeping.forget()

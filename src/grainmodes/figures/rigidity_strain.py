@@ -15,7 +15,7 @@ from grainmodes.figures import appearance
 from grainmodes.figures.appearance import ROTATIONAL
 from grainmodes.figures.rigidity_rows import UNIT
 from grainmodes.figures.selection import Options
-from grainmodes.figures.sheared_points import EVENTS, SAMPLE, name_sample, sample
+from grainmodes.figures.sheared_points import EVENTS, SAMPLE, SMALL, name_sample, sample
 
 COLUMNS = SAMPLE | {
     "strain": ("1", "strain of a state"),
@@ -24,9 +24,6 @@ COLUMNS = SAMPLE | {
     "lowest_eigenvalue": (UNIT, "smallest eigenvalue of the Jacobian but its translations"),
     "event": ("1", "1: a plastic event lies in the step to the next state"),
 }
-SMALL = 0.002
-"""Largest strain of B, Fig. 7."""
-
 BEYOND = 1.25
 """Factor on the strain of the first event up to which a later one is shown."""
 

@@ -18,6 +18,9 @@ POINT = {
     "kt": ("k_N", "tangential stiffness k_T"),
 }
 SAMPLE = POINT | {"seed": ("1", "the sample")}
+SMALL = 0.002
+"""The strains of B, Figs. 7 and 8."""
+
 EVENTS = "#b2182b"
 """Colour of what belongs to plastic events."""
 

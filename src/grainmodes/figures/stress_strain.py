@@ -14,7 +14,7 @@ from grainmodes.figures import appearance
 from grainmodes.figures.appearance import ROTATIONAL
 from grainmodes.figures.rigidity_rows import UNIT
 from grainmodes.figures.selection import Options
-from grainmodes.figures.sheared_points import EVENTS, SAMPLE, name_sample, sample
+from grainmodes.figures.sheared_points import EVENTS, SAMPLE, SMALL, name_sample, sample
 
 COLUMNS = SAMPLE | {
     "strain": ("1", "strain of a state"),
@@ -22,9 +22,6 @@ COLUMNS = SAMPLE | {
     "stress_theory": (UNIT, "the same from the state before, sigma + g times the step"),
     "event": ("1", "1: a plastic event lies in the step that leads to this state"),
 }
-SMALL = 0.002
-"""The strains of B, Figs. 7 and 8."""
-
 AROUND = 12
 """Steps on either side of the largest drop that panel b shows."""
 

@@ -13,6 +13,7 @@ from grainmodes.figures import (
     draw,
 )
 from grainmodes.parameters.figures import FIGURES
+from pictures import numbers_of
 
 OF_ENSEMBLES = [name for name, figure in FIGURES.items() if figure.source == "ensemble"]
 
@@ -20,12 +21,7 @@ OF_ENSEMBLES = [name for name, figure in FIGURES.items() if figure.source == "en
 @pytest.mark.parametrize("name", OF_ENSEMBLES)
 def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, whole, tmp_path):
     draw(name, whole, tmp_path / name, {})
-    assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
-    assert (tmp_path / f"{name}.pdf").read_bytes().startswith(b"%PDF")
-    header = [line for line in (tmp_path / f"{name}.csv").open() if line.startswith("#")]
-    numbers = pd.read_csv(tmp_path / f"{name}.csv", comment="#")
-    assert header[0] == f"# {FIGURES[name].title}\n"
-    assert [line.split()[1] for line in header[1:]] == list(numbers.columns)
+    numbers = numbers_of(tmp_path, name)
     assert len(numbers)
     assert len(list(tmp_path.iterdir())) == 3
 

@@ -18,6 +18,7 @@ from grainmodes.figures import (
 )
 from grainmodes.figures.selection import Options
 from grainmodes.parameters.figures import FIGURES
+from pictures import numbers_of
 
 OF_EVENTS = [name for name, figure in FIGURES.items() if figure.source == "close_up"]
 MAPS = {
@@ -120,12 +121,7 @@ def _fields(n: int, kt: float, draws) -> dict:
 def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, tmp_path):
     write_block(tmp_path / "one.nc", close_up())
     draw(name, [tmp_path / "one.nc"], tmp_path / name, {})
-    assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
-    assert (tmp_path / f"{name}.pdf").read_bytes().startswith(b"%PDF")
-    header = [line for line in (tmp_path / f"{name}.csv").open() if line.startswith("#")]
-    numbers = pd.read_csv(tmp_path / f"{name}.csv", comment="#")
-    assert header[0] == f"# {FIGURES[name].title}\n"
-    assert [line.split()[1] for line in header[1:]] == list(numbers.columns)
+    numbers = numbers_of(tmp_path, name)
     assert len(numbers) == LENGTHS[name]
 
 

@@ -14,6 +14,7 @@ from grainmodes.figures.field_rows import grains
 from grainmodes.figures.grain_maps import OUTLINED, Scale, draw_map, rounded
 from grainmodes.figures.selection import Options
 from grainmodes.parameters.figures import FIGURES
+from pictures import numbers_of
 
 OF_FIELDS = [name for name, figure in FIGURES.items() if figure.source == "fields"]
 MODULES = {
@@ -67,12 +68,7 @@ def paths(tmp_path):
 @pytest.mark.parametrize("name", OF_FIELDS)
 def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, paths, tmp_path):
     draw(name, paths, tmp_path / name, {})
-    assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
-    assert (tmp_path / f"{name}.pdf").read_bytes().startswith(b"%PDF")
-    header = [line for line in (tmp_path / f"{name}.csv").open() if line.startswith("#")]
-    numbers = pd.read_csv(tmp_path / f"{name}.csv", comment="#")
-    assert header[0] == f"# {FIGURES[name].title}\n"
-    assert [line.split()[1] for line in header[1:]] == list(numbers.columns)
+    numbers = numbers_of(tmp_path, name)
     assert len(numbers) == (36 if name != "eigenvectors" else 2 * 3 * 36)
 
 
