@@ -176,12 +176,12 @@ def harmonic_at(n: int, phi: float):
 
 def shear_by_newton(n: int) -> float:
     """γ = 0 to 0.02, Δγ = 1e-4, Δγ_Th = 1e-8, harmonic, k_T = k_N, φ = 0.90."""
-    return cpu(_walk, harmonic_at(n, 0.9), Shear(0.02))
+    return _sheared(n, Shear(0.02))
 
 
 def shear_by_dynamics(n: int) -> float:
     """The same by B's damped dynamics alone, Δt = 0.01 t_0, to the same balance."""
-    return cpu(_walk, harmonic_at(n, 0.9), Shear(0.02, relaxation="damped", time_step=0.01))
+    return _sheared(n, Shear(0.02, relaxation="damped", time_step=0.01))
 
 
 def shear_step(n: int) -> float:
@@ -189,6 +189,12 @@ def shear_step(n: int) -> float:
     packing, steps = harmonic_at(n, 0.9), 50
     _walk(packing, Shear(2e-4, 1e-4, 1e-4))
     return 1e3 / steps * cpu(_walk, packing, Shear(steps * 1e-4, 1e-4, 1e-4))
+
+
+def _sheared(n: int, choices: Shear) -> float:
+    packing = harmonic_at(n, 0.9)
+    _walk(packing, choices)
+    return cpu(_walk, packing, choices)
 
 
 def _walk(packing, choices: Shear) -> None:

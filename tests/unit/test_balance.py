@@ -12,12 +12,12 @@ from grainmodes.forces import largest, net_force
 from grainmodes.kernels.laws import interaction
 from grainmodes.kernels.permutations import odd
 from grainmodes.linear import PinnedFactor
-from grainmodes.packing import find_contacts, rattlers
+from grainmodes.packing import find_contacts, nonaffine_motion, rattlers
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.balance import OLDEST, Balance, lost_force
 from grainmodes.relaxation.following import find_balance
 from grainmodes.stability import lowest_eigenvalue
-from specimens import LAWS, MINIMAL, crowd, law_name, reference, with_slip
+from specimens import LAWS, MINIMAL, crowd, law_name, quenched, reference, with_slip
 
 B = interaction(ContactLaw("harmonic", "elastic", 1.0))
 WEAK = interaction(ContactLaw("harmonic", "elastic", 0.1))
@@ -49,6 +49,26 @@ def test_a_balance_is_one_and_its_loose_grains_touch_nothing(law):
     loose = rattlers(contacts, now.packing.n, 1 if law.frictional else 2)
     np.testing.assert_array_equal(now.held, ~loose)
     assert not np.any(loose[contacts.i] | loose[contacts.j])
+
+
+def test_a_loose_grain_pushed_against_the_others_is_let_go():
+    """It bears nothing: the others stay where they are, and it touches none of them."""
+    packing, rule = quenched(256, 0.86), interaction(ContactLaw("hertz", "elastic", 1.0))
+    loose = np.flatnonzero(rattlers(find_contacts(packing), packing.n, 1))[0]
+    apart = packing.position - packing.position[loose]
+    apart -= packing.box_length * np.round(apart / packing.box_length)
+    gap = np.hypot(*apart.T) - 0.5 * (packing.diameter + packing.diameter[loose])
+    gap[loose] = np.inf
+    nearest = np.argmin(gap)
+    push = np.zeros((packing.n, 2))
+    push[loose] = apart[nearest] / np.hypot(*apart[nearest]) * (gap[nearest] + 1e-4)
+    pushed = packing.displaced(push)
+    assert loose in np.concatenate([find_contacts(pushed).i, find_contacts(pushed).j])
+    found = find_balance(pushed, rule, 1e-14)
+    contacts = find_contacts(found.packing)
+    assert loose not in np.concatenate([contacts.i, contacts.j])
+    moved = nonaffine_motion(packing, found.packing)
+    assert np.abs(np.delete(moved, loose, axis=0)).max() < 1e-9
 
 
 def test_factors_are_handed_on_and_solve_as_well_as_new_ones():
