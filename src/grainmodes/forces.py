@@ -10,10 +10,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from grainmodes.kernels.assembly import on_grains
 from grainmodes.kernels.contacts import contact_forces, normal_forces
 from grainmodes.kernels.energies import contact_energies
 from grainmodes.kernels.laws import Frictionless, Interaction
 from grainmodes.packing import Contacts, Packing
+
+SIGNS = np.array([-1.0, -1.0, 1.0])
+"""How (x, y, ℓ) of grain j enter the relative coordinates and the force."""
 
 
 def is_frictionless(interaction: Interaction) -> bool:
@@ -36,13 +40,12 @@ def tangential_forces(interaction: Interaction, overlap: np.ndarray, s: np.ndarr
 
 def net_force(packing: Packing, contacts: Contacts, interaction: Interaction) -> np.ndarray:
     """F̃ on every grain: (N, 2) frictionless, else (N, 3) = (F_x, F_y, 2 T/d), in k_N d^(3/2)."""
-    forces = forces_on_i(contacts, interaction)
-    columns = []
-    for axis in range(forces.shape[1]):
-        on_j = -1.0 if axis < 2 else 1.0
-        total = np.bincount(contacts.i, forces[:, axis], packing.n)
-        columns.append(total + on_j * np.bincount(contacts.j, forces[:, axis], packing.n))
-    return np.stack(columns, axis=1)
+    return net(contacts, forces_on_i(contacts, interaction), packing.n)
+
+
+def net(contacts: Contacts, forces: np.ndarray, n: int) -> np.ndarray:
+    """What forces (C, k) on the grains i of all contacts do to every grain, (N, k)."""
+    return on_grains(forces, SIGNS[: forces.shape[1]], contacts.i, contacts.j, n)
 
 
 def largest(force: np.ndarray) -> tuple[float, float]:

@@ -15,14 +15,11 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sparse
 
-from grainmodes.forces import is_frictionless
+from grainmodes.forces import SIGNS, is_frictionless
 from grainmodes.kernels.assembly import columns_of
 from grainmodes.kernels.contacts import contact_stiffness, normal_stiffness
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing import Contacts, Packing
-
-SIGNS = np.array([-1.0, -1.0, 1.0])
-"""How (x, y, ℓ) of grain j enter the relative coordinates and the force."""
 
 
 def stiffness_of(contacts: Contacts, interaction: Interaction) -> np.ndarray:

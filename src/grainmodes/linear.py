@@ -10,11 +10,11 @@ in half the time; where a pivot fails, by SuperLU with row pivoting.
 from __future__ import annotations
 
 from copy import copy
-from functools import cache
+from functools import cache, cached_property
 
 import numpy as np
 import scipy.sparse as sparse
-from scipy.sparse.linalg import splu
+from scipy.sparse.linalg import LinearOperator, eigs, splu
 
 from grainmodes.factorisation import SuperLU, ZeroPivotError
 from grainmodes.kernels.permutations import odd
@@ -22,6 +22,13 @@ from grainmodes.shift import SymmetricShift
 
 SOFTEST = 1e12
 """Largest response of the scaled Jacobian to a generic force that rounding lets one believe."""
+
+
+LOWEST = 12
+"""Eigenvalues next to zero in which a negative one is sought."""
+
+FEW = 60
+"""Unknowns up to which all of them are looked at."""
 
 
 class FloppyError(ArithmeticError):
@@ -48,6 +55,8 @@ class PinnedFactor:
         backend: str = "auto",
         like: PinnedFactor | None = None,
     ):
+        self.size = matrix.shape[0]
+        self._symmetric = symmetric
         self._matrix = matrix[2:, 2:]
         diagonal = np.abs(self._matrix.diagonal())
         if np.any(diagonal == 0.0):
@@ -69,10 +78,26 @@ class PinnedFactor:
         if not np.linalg.norm(answer) < SOFTEST * np.linalg.norm(force):
             raise FloppyError("the Jacobian has zero modes beyond the two translations")
 
-    @property
+    @cached_property
     def unstable(self) -> bool:
-        """Whether J has negative eigenvalues; if it is not symmetric, an odd number of them."""
-        return self._factor.count > 0
+        """Whether J has eigenvalues of negative real part.
+
+        A symmetric J has as many as negative pivots. Of any J an odd number of negative pivots
+        means an odd number of negative eigenvalues; an even one may mean none, and the `LOWEST`
+        eigenvalues of the pinned J decide.
+        """
+        count = self._factor.count
+        if self._symmetric or count % 2 or not count:
+            return count > 0
+        return bool(self._lowest().real.min() < 0.0)
+
+    def _lowest(self) -> np.ndarray:
+        """Eigenvalues of the pinned J next to zero, complex."""
+        size = self._matrix.shape[0]
+        if size <= FEW:
+            return np.linalg.eigvals(self._matrix.toarray())
+        inverse = LinearOperator((size, size), matvec=self._factor.solve, dtype=float)
+        return 1.0 / eigs(inverse, k=LOWEST, v0=_generic(size), return_eigenvectors=False)
 
     def solve(self, force: np.ndarray, refined: bool = True) -> np.ndarray:
         """u with J u = `force`, (kN,), refined once or not; u of grain 0 is zero in x, y."""
@@ -90,7 +115,7 @@ def _generic(size: int) -> np.ndarray:
 
 
 class _General:
-    """Factors of a matrix of symmetric pattern; `count` is 1 if its determinant is negative."""
+    """Factors of a matrix of symmetric pattern; `count` of its negative pivots."""
 
     def __init__(self, matrix: sparse.csc_array, diagonal: np.ndarray, like):
         self._scale = 1.0 / np.sqrt(diagonal)
@@ -100,7 +125,7 @@ class _General:
         self._factors = like.ordered(self._pattern) if isinstance(like, _General) else None
         self._factors = self._factors or SuperLU(matrix)
         try:
-            self.count = self._factors.refill(scaled) % 2
+            self.count = self._factors.refill(scaled)
         except ZeroPivotError:
             entries = (scaled, matrix.indices, matrix.indptr)
             self._factors = splu(sparse.csc_array(entries, shape=matrix.shape))

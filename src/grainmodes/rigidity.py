@@ -25,8 +25,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from grainmodes.forces import forces_on_i, is_frictionless
-from grainmodes.jacobian import SIGNS, assemble, stiffness_of
+from grainmodes.forces import SIGNS, forces_on_i, is_frictionless, net
+from grainmodes.jacobian import assemble, stiffness_of
 from grainmodes.kernels.laws import Interaction
 from grainmodes.linear import PinnedFactor
 from grainmodes.packing import Contacts, Packing, backbone, find_contacts
@@ -97,7 +97,7 @@ class AffineStep:
         self.stiffness = stiffness_of(contacts, interaction)
         self._affine = affine_displacement(contacts, self.stiffness.shape[1], loaded)
         self._rate = np.einsum("cab,cb->ca", self.stiffness, self._affine)
-        self.force = net_rate(contacts, self._rate, packing.n)
+        self.force = net(contacts, self._rate, packing.n)
 
     def moduli(self, nonaffine: np.ndarray) -> Moduli:
         """Both parts of dσ/dγ for a non-affine field u that solves J u = `force`, any shape."""
@@ -126,11 +126,3 @@ def affine_displacement(contacts: Contacts, k: int, loaded: bool) -> np.ndarray:
 def relative(contacts: Contacts, u: np.ndarray) -> np.ndarray:
     """δu = (u_i − u_j, ℓ_i + ℓ_j) of every contact from a field u (N, k)."""
     return u[contacts.i] + SIGNS[: u.shape[1]] * u[contacts.j]
-
-
-def net_rate(contacts: Contacts, rate: np.ndarray, n: int) -> np.ndarray:
-    """Σ over contacts of the force rates on both grains, (N, k)."""
-    total = np.zeros((n, rate.shape[1]))
-    np.add.at(total, contacts.i, rate)
-    np.add.at(total, contacts.j, rate * SIGNS[: rate.shape[1]])
-    return total

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import naive
-from grainmodes.forces import largest, net_force
+from grainmodes.forces import largest, net, net_force
 from grainmodes.jacobian import jacobian
 from grainmodes.packing import Packing, find_contacts, rattlers
 from grainmodes.parameters.compression import Compression
@@ -14,7 +14,7 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.compression import balanced, placed
 from grainmodes.protocols.step_strain import step_strain
-from grainmodes.rigidity import net_rate, rigidity
+from grainmodes.rigidity import rigidity
 from grainmodes.spectrum import spectrum
 from specimens import elastic, few, pairs_of
 
@@ -158,4 +158,4 @@ def test_sum_of_forces_on_grains_is_zero_for_any_contact_force():
     packing = compressed(16, 0.9, 3)
     contacts = find_contacts(packing)
     rate = np.random.default_rng(0).normal(size=(len(contacts.i), 3))
-    np.testing.assert_allclose(net_rate(contacts, rate, 16)[:, :2].sum(axis=0), 0.0, atol=1e-13)
+    np.testing.assert_allclose(net(contacts, rate, 16)[:, :2].sum(axis=0), 0.0, atol=1e-13)

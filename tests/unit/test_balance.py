@@ -14,12 +14,15 @@ from grainmodes.kernels.permutations import odd
 from grainmodes.linear import PinnedFactor
 from grainmodes.packing import find_contacts, nonaffine_motion, rattlers
 from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.quasistatic import first_balance, step_to
 from grainmodes.relaxation.balance import OLDEST, Balance, lost_force
 from grainmodes.relaxation.following import find_balance
 from grainmodes.stability import lowest_eigenvalue
 from specimens import LAWS, MINIMAL, crowd, law_name, quenched, reference, with_slip
 
 B = interaction(ContactLaw("harmonic", "elastic", 1.0))
+HERTZIAN = interaction(ContactLaw("hertz", "elastic", 1.0))
 WEAK = interaction(ContactLaw("harmonic", "elastic", 0.1))
 PACKING = "harmonic_n64_phi0.900_seed1"
 
@@ -87,7 +90,7 @@ def test_factors_grow_old():
 
 def test_factors_of_another_matrix_are_not_believed():
     near, far = sheared(1, size=1e-6), sheared(40, size=1e-3)
-    mixed = far.heir(near.handed_on)
+    mixed = replace(far, inherited=near.handed_on)
     force = np.ones(far.force.shape) - [1.0, 1.0, 0.0]
     assert far.held.all() == near.held.all() is np.True_ or far.held.all()
     np.testing.assert_allclose(mixed.solved(force), far.factor.solve(force), rtol=1e-8, atol=1e-9)
@@ -105,19 +108,36 @@ def test_a_contact_lost_under_load_is_noticed():
     assert lost_force(packing, contacts, interaction(LAWS[3])) == 0.0
 
 
-def test_instability_is_an_odd_number_of_negative_eigenvalues():
-    """Of the dense J, for springs stretched at random; and a real balance has none."""
-    odds = []
+def negative_eigenvalues(state: Balance) -> int:
+    """Of the dense J."""
+    values = scipy.linalg.eigvals(state.matrix.toarray())
+    return np.count_nonzero((values.real < -1e-9) & (np.abs(values.imag) < 1e-12))
+
+
+def test_a_state_with_negative_eigenvalues_is_unstable():
+    """One or several of the dense J, for springs stretched at random; and a balance has none."""
+    numbers = []
     for seed in range(12):
         state = slipping(seed, 1.0, squeezed=1.4)
-        values = scipy.linalg.eigvals(state.matrix.toarray())
-        negative = np.count_nonzero((values.real < -1e-9) & (np.abs(values.imag) < 1e-12))
-        assert state.unstable == negative % 2
-        odds.append(negative % 2)
-    assert 0 < sum(odds) < 12
+        numbers.append(negative_eigenvalues(state))
+        assert state.unstable == (numbers[-1] > 0)
+    assert {1, 2} <= set(numbers)
+    assert not slipping(0, 1.0, squeezed=0.9).unstable
     assert not sheared(2).unstable
     turned = PinnedFactor(-sheared(1).matrix, symmetric=False)
-    assert turned.unstable == (64 * 3 - 2) % 2
+    assert turned.unstable and turned._factor.count == 64 * 3 - 2
+
+
+def test_negative_pivots_of_a_lopsided_matrix_are_no_instability():
+    """Hertz contacts about to open: ∂f_T/∂ξ is large, the pivots of a stable J are negative."""
+    choices = Shear(step=1e-3)
+    now = first_balance(reference("hertz_n64_phi0.860_seed2")[1], HERTZIAN, choices)
+    for step in range(1, 41):
+        now, _ = step_to(1e-3 * step, now, choices)
+    assert now.factor._factor.count == 2
+    assert negative_eigenvalues(now) == 0
+    assert np.linalg.eigvalsh((now.matrix + now.matrix.T).toarray())[0] < -0.1
+    assert not now.unstable
 
 
 @pytest.mark.parametrize("size", [1, 2, 5, 40])

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import naive
+from grainmodes.forces import net
 from grainmodes.jacobian import jacobian
 from grainmodes.kernels.laws import interaction
 from grainmodes.linear import FloppyError, PinnedFactor
@@ -11,7 +12,7 @@ from grainmodes.modes import ModeRigidity, elastic_modes, mode_sum
 from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import SpectrumChoices
-from grainmodes.rigidity import affine_displacement, net_rate, relative, rigidity
+from grainmodes.rigidity import affine_displacement, relative, rigidity
 from grainmodes.spectrum import spectrum
 from specimens import (
     ELASTIC,
@@ -189,7 +190,7 @@ def test_relative_and_net_are_each_others_transpose():
     draws = np.random.default_rng(0)
     u, rate = draws.normal(size=(16, 3)), draws.normal(size=(len(contacts.i), 3))
     assert np.sum(relative(contacts, u) * rate) == pytest.approx(
-        np.sum(u * net_rate(contacts, rate, 16)), rel=1e-12
+        np.sum(u * net(contacts, rate, 16)), rel=1e-12
     )
 
 

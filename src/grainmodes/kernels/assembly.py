@@ -1,4 +1,6 @@
-"""The sparse Jacobian from the stiffnesses of its contacts, column by column, without a sort.
+"""Net forces and the sparse Jacobian from what acts in the contacts.
+
+The Jacobian is written column by column, without a sort.
 
 Contacts are i > j sorted by (i, j). The block column of grain g therefore holds, ascending, the
 partners below g in the order of their contacts, g itself, and the partners above in theirs:
@@ -11,6 +13,18 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.kernels.compiler import kernel
+
+
+@kernel
+def on_grains(forces, signs, i, j, n):
+    """Sum of the forces (C, k) on grains i and, with their signs (k,), on grains j; (n, k)."""
+    k = signs.shape[0]
+    on_i, on_j = np.zeros((n, k)), np.zeros((n, k))
+    for c in range(i.shape[0]):
+        for a in range(k):
+            on_i[i[c], a] += forces[c, a]
+            on_j[j[c], a] += forces[c, a]
+    return on_i + signs * on_j
 
 
 @kernel

@@ -34,8 +34,9 @@ from grainmodes.relaxation.following import find_balance
 from grainmodes.relaxation.frictionless import relax_fast
 from grainmodes.relaxation.result import Relaxed
 
-BASIN = 1e-6
-"""max|F̃|, relative to the mean contact force, at which dynamics hands over to Newton's method."""
+BASIN = 1e-4
+"""max|F̃|, relative to the mean contact force, at which dynamics hands over to Newton's method: by
+then it has decided which contacts open and close (docs/numerics.md)."""
 
 DEEPER = 0.01
 """Factor on that where Newton's method leaves the basin."""
@@ -83,14 +84,14 @@ def affinely(before: Balance, strain: float, loaded: bool) -> Packing:
 
 def _by_dynamics(packing: Packing, before: Balance, choices: Shear) -> Balance:
     """Dynamics into a basin, Newton's method to its bottom; deeper in if that fails."""
-    interaction, like = before.interaction, before.handed_on.factor
+    interaction = before.interaction
     tolerance, left = _handover(packing, interaction, choices), choices.max_steps
     while left > 0:
         relaxed = _relaxed(packing, interaction, tolerance, choices, left)
         to_the_end = tolerance <= choices.force_tolerance
         most_lost = np.inf if to_the_end else choices.force_tolerance
         found = find_balance(
-            relaxed.packing, interaction, choices.force_tolerance, like=like, most_lost=most_lost
+            relaxed.packing, interaction, choices.force_tolerance, before, most_lost
         )
         if found is not None and not found.unstable:
             return found

@@ -1,9 +1,9 @@
 """A state, the grains in it that carry load, and its linear response.
 
-J changes little from one balance to the next. The factors of an earlier J, `inherited`, still solve
-this one by iteration, u → u + J₀⁻¹ (f − J u), as long as that gains a decade each time; then
-‖1 − J₀⁻¹ J‖ < 1, so that no eigenvalue can have changed its sign either. Otherwise, and after
-`OLDEST` states, J is factored anew.
+J changes little from one balance to the next. The factors of an earlier J, `fitted` to the contacts
+that have changed since, still solve this one by iteration, u → u + J₁⁻¹ (f − J u), as long as that
+gains a decade each time; then ‖1 − J₁⁻¹ J‖ < 1, so that no eigenvalue changes its sign between J₁
+and J. Otherwise, and after `OLDEST` states, J is factored anew.
 
 | symbol | name      | shape                                  |
 | ------ | --------- | -------------------------------------- |
@@ -23,10 +23,11 @@ import numpy as np
 import scipy.sparse as sparse
 
 from grainmodes.forces import is_frictionless, largest, net_force, tangential_forces
-from grainmodes.jacobian import jacobian
+from grainmodes.jacobian import assemble, stiffness_of
 from grainmodes.kernels.laws import Interaction
 from grainmodes.linear import PinnedFactor
 from grainmodes.packing import Contacts, Packing, rattlers
+from grainmodes.relaxation.inherited import Fitted, Origin
 from grainmodes.relaxation.newton import moved_by, slipped
 
 GAIN = 0.1
@@ -35,7 +36,7 @@ GAIN = 0.1
 OLDEST = 20
 """States that the factors of one J serve at most."""
 
-EXACT = 1e-13
+EXACT = 1e-12
 """Relative residual of a solution by inherited factors."""
 
 NOTHING = 1e-100
@@ -43,9 +44,9 @@ NOTHING = 1e-100
 
 
 class Inherited(NamedTuple):
-    """Factors of an earlier J, and how many states they have served."""
+    """An earlier J, and how many states its factors have served."""
 
-    factor: PinnedFactor
+    origin: Origin
     age: int
 
 
@@ -70,18 +71,31 @@ class Balance:
         cls,
         packing: Packing,
         interaction: Interaction,
-        like: PinnedFactor | None = None,
-        lost: float = 0.0,
+        before: Balance | None = None,
     ) -> Balance:
-        """A state as it is, once its springs have slipped."""
+        """A state as it is, once its springs have slipped; what it inherits is from `before`."""
         moved, contacts = slipped(packing, interaction)
-        loose = rattlers(contacts, packing.n, most_loose(interaction))
-        lost = max(lost, lost_force(packing, contacts, interaction))
-        return cls(moved, contacts, ~loose, interaction, None, like, lost)
+        held = ~rattlers(contacts, packing.n, most_loose(interaction))
+        now = cls(
+            moved, contacts, held, interaction, lost=lost_force(packing, contacts, interaction)
+        )
+        if before is None:
+            return now
+        return now._given(before, before.inherited, before.like, max(now.lost, before.lost))
 
     def __reduce__(self):
         """Pickled as its packing: factors are made again, and are the same."""
         return Balance.of, (self.packing, self.interaction)
+
+    def heir_of(self, before: Balance) -> Balance:
+        """The same state with the factors of an earlier one, if it is of the same grains."""
+        inherited = before.handed_on
+        return self._given(before, inherited, inherited.origin.factor, self.lost)
+
+    def _given(self, before: Balance, inherited: Inherited | None, like, lost: float) -> Balance:
+        """The same state with what `before` leaves to the same grains."""
+        same = np.array_equal(self.held, before.held)
+        return replace(self, inherited=inherited if same else None, like=like, lost=lost)
 
     @cached_property
     def backbone(self) -> Packing:
@@ -111,9 +125,15 @@ class Balance:
         return max(largest(self.force))
 
     @cached_property
+    def stiffness(self) -> np.ndarray:
+        """K of the contacts between them, (C, k, k)."""
+        return stiffness_of(self.backbone_contacts, self.interaction)
+
+    @cached_property
     def matrix(self) -> sparse.csc_array:
         """J of the grains that carry load."""
-        return jacobian(self.backbone, self.backbone_contacts, self.interaction)
+        contacts = self.backbone_contacts
+        return assemble(self.stiffness, contacts.i, contacts.j, self.backbone.n)
 
     @cached_property
     def factor(self) -> PinnedFactor:
@@ -125,17 +145,35 @@ class Balance:
         symmetric = self.backbone_contacts.tangential_displacement is None
         return PinnedFactor(self.matrix, symmetric, like=self.like)
 
+    @cached_property
+    def fitted(self) -> Fitted | None:
+        """The inherited factors for this J; None where there are none, or too much has changed."""
+        if self.inherited is None:
+            return None
+        return self.inherited.origin.fitted(self.backbone_contacts, lambda: self.stiffness)
+
+    @property
+    def origin(self) -> Origin:
+        """This J, for later ones.
+
+        Raises:
+            FloppyError: the backbone has zero modes beyond the translations.
+        """
+        return Origin(self.factor, self.backbone_contacts, self.stiffness)
+
     @property
     def handed_on(self) -> Inherited:
         """The factors for the next state: those inherited until they are too old."""
-        if self.inherited is None or self.inherited.age >= OLDEST:
-            return Inherited(self.factor, 1)
+        if self.fitted is None or self.inherited.age >= OLDEST:
+            return Inherited(self.origin, 1)
         return self.inherited._replace(age=self.inherited.age + 1)
 
     @property
     def unstable(self) -> bool:
-        """Whether J has negative eigenvalues; if not symmetric, an odd number of them."""
-        return (self.inherited.factor if self.inherited else self.factor).unstable
+        """Whether J has negative eigenvalues."""
+        if self.fitted is None or self.fitted.turned or self.inherited.origin.factor.unstable:
+            return self.factor.unstable
+        return False
 
     def solved(self, force: np.ndarray) -> np.ndarray:
         """u with J u = `force`, (kN',).
@@ -143,12 +181,12 @@ class Balance:
         Raises:
             FloppyError: the backbone has zero modes beyond the translations.
         """
-        if self.inherited is None:
+        if self.fitted is None:
             return self.factor.solve(force)
         wanted = force.ravel()
         u, left, goal = np.zeros(len(wanted)), wanted, EXACT * np.abs(wanted).max(initial=0.0)
         while (size := np.abs(left).max(initial=0.0)) > goal:
-            u = u + self.inherited.factor.solve(left, refined=False)
+            u = u + self.fitted.solve(left)
             left = wanted - self.matrix @ u
             if not np.abs(left).max() < max(GAIN * size, goal):
                 return self.factor.solve(force)
@@ -161,11 +199,7 @@ class Balance:
             everywhere = np.zeros((self.packing.n, u.shape[1]))
             everywhere[self.held] = u
         packing = moved_by(self.packing, self.contacts, self.interaction, everywhere)
-        return Balance.of(packing, self.interaction, self.like, self.lost)
-
-    def heir(self, inherited: Inherited | None) -> Balance:
-        """The same state with the factors of an earlier one, or with none."""
-        return replace(self, inherited=inherited)
+        return Balance.of(packing, self.interaction, self)
 
 
 def most_loose(interaction: Interaction) -> int:

@@ -20,7 +20,7 @@ import numpy as np
 
 from grainmodes.forces import is_frictionless, largest, net_force
 from grainmodes.jacobian import jacobian
-from grainmodes.kernels.contacts import kept_displacement
+from grainmodes.kernels.contacts import kept_displacement, slides
 from grainmodes.kernels.laws import Interaction
 from grainmodes.linear import FloppyError, PinnedFactor
 from grainmodes.packing import Contacts, History, Packing, find_contacts
@@ -79,7 +79,8 @@ def moved_by(
     if is_frictionless(interaction):
         return moved
     rotation = np.zeros(packing.n) if packing.rotation is None else packing.rotation
-    s = contacts.displacement + _sliding(contacts, u)
+    c = contacts
+    s = c.displacement + slides(c.normal, c.distance, c.i, c.j, u)
     return replace(moved, rotation=rotation + u[:, 2], history=History(contacts.i, contacts.j, s))
 
 
@@ -91,11 +92,3 @@ def slipped(packing: Packing, interaction: Interaction) -> tuple[Packing, Contac
     s = kept_displacement(interaction, contacts.overlap, contacts.displacement)
     history = History(contacts.i, contacts.j, s)
     return replace(packing, history=history), replace(contacts, tangential_displacement=s)
-
-
-def _sliding(contacts: Contacts, u: np.ndarray) -> np.ndarray:
-    """ds = t·δr + δℓ of every contact, with t at the middle of the motion; (C,)."""
-    step = u[contacts.i, :2] - u[contacts.j, :2]
-    middle = contacts.normal * contacts.distance[:, None] + 0.5 * step
-    cross = middle[:, 1] * step[:, 0] - middle[:, 0] * step[:, 1]
-    return cross / np.hypot(middle[:, 0], middle[:, 1]) + u[contacts.i, 2] + u[contacts.j, 2]
