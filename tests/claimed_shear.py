@@ -82,7 +82,7 @@ def _sample(seed: int) -> dict[str, object]:
     lowest = factor * (0.2 - 0.1 * strain) * 0.9**passed
     changes = np.searchsorted(strain, CHANGES)
     grid = on_grid(strain)
-    one = np.ones(len(before))
+    one, width = np.ones(len(before)), STEP / 10.0 ** np.arange(7)
     return {
         "curve_count": len(strain),
         "curve_strain": strain,
@@ -100,6 +100,11 @@ def _sample(seed: int) -> dict[str, object]:
         "event_reopened": 0.0 * one,
         "event_asymmetry_after": 0.0 * one,
         "event_complex_pairs_after": 0.0 * one,
+        "event_quadrupole": 0.5 * factor * one,
+        "event_other_poles": 0.02 * one,
+        "bracket_smallest_step": width,
+        "bracket_strain_before": EVENTS[0] - 0.5 * width,
+        "bracket_strain_after": EVENTS[0] + 0.5 * width + 0.2 * factor * width,
         "last_complex_pairs": 0.0,
         "change_strain_before": strain[changes],
     }

@@ -57,12 +57,23 @@ def other_without_brackets(ensemble):
     ensemble["unbracketed_stress"] = 1.05 * ensemble["unbracketed_stress"]
 
 
+def wandering(ensemble):
+    """γ_c of every bracket another event's."""
+    ensemble["bracket_strain_after"] = ensemble["bracket_strain_after"] + 1e-5 * np.arange(7)
+
+
+def turning_as_one(ensemble):
+    ensemble["event_quadrupole"] = 0.1 * ensemble["event_quadrupole"]
+
+
 DOCTORED = {
     "B1": theory_off,
     "B2": other_without_brackets,
     "B3": trend_before_events,
     "B4": singular_rigidity,
+    "B5": wandering,
     "B6": skewed,
+    "B7": turning_as_one,
     "B8": softer_in_changes,
     "B9": no_contact_changes,
 }

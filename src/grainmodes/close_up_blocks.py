@@ -25,7 +25,7 @@ from grainmodes.protocols.event_states import (
     simulated_rate,
     states_around,
 )
-from grainmodes.protocols.first_event import Bracket, brackets, closer, steps
+from grainmodes.protocols.first_event import Bracket, bracket_ends, brackets, closer, steps
 from grainmodes.protocols.shear import Walk
 from grainmodes.protocols.tangential_path import PathError, TangentialPath
 from grainmodes.rows import response_block
@@ -61,7 +61,7 @@ def _grains(packing: Packing) -> dict[str, object]:
 
 def _brackets(found: list[Bracket]) -> dict[str, object]:
     """Every bracket with the curve around it."""
-    sides = {f"{name}_{side}": np.nan for name in ("strain", "stress") for side in SIDES}
+    sides = {f"stress_{side}": np.nan for side in SIDES}
     columns = sides | {"kind": 0, "opened": 0, "closed": 0}
     values = [columns | (_ends(b) if b.event else {}) for b in found]
     row = {f"bracket_{name}": [value[name] for value in values] for name in columns}
@@ -70,14 +70,14 @@ def _brackets(found: list[Bracket]) -> dict[str, object]:
     for place, bracket in enumerate(found):
         strain[place, : len(bracket.curve)] = [p.strain for p in bracket.curve]
         stress[place, : len(bracket.curve)] = [_mean(p.stress) for p in bracket.curve]
-    row["bracket_smallest_step"] = [b.smallest_step for b in found]
-    return row | {"bracket_curve_strain": strain, "bracket_curve_stress": stress}
+    return (
+        row | bracket_ends(found) | {"bracket_curve_strain": strain, "bracket_curve_stress": stress}
+    )
 
 
 def _ends(bracket: Bracket) -> dict[str, float]:
     event, ends = bracket.event, (bracket.before, bracket.after)
     return {
-        **{f"strain_{side}": state.strain for side, state in zip(SIDES, ends, strict=True)},
         **{f"stress_{side}": state.sigma for side, state in zip(SIDES, ends, strict=True)},
         **{name: getattr(event, name) for name in ("kind", "opened", "closed")},
     }

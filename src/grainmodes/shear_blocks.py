@@ -19,6 +19,8 @@ from grainmodes.kernels.laws import Interaction, interaction
 from grainmodes.packing import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.event_poles import rotational_poles
+from grainmodes.protocols.first_event import bracket_ends, brackets
 from grainmodes.protocols.shear import Walk
 from grainmodes.protocols.sheared_state import Change, Event, Point, reopened
 from grainmodes.relaxation.balance import Balance
@@ -47,7 +49,10 @@ def shear_block(
     unbracketed: bool = False,
     keeper: Keeper | None = None,
 ) -> Block:
-    """The stress-strain curve of every packing, and once more with `unbracketed` events."""
+    """The stress-strain curve of every packing.
+
+    `unbracketed`: once more without brackets, and the first event in brackets of every width.
+    """
     rule = interaction(law)
 
     def sample(number: int) -> dict[str, object]:
@@ -60,6 +65,7 @@ def shear_block(
         if unbracketed:
             coarse = replace(choices, smallest_step=choices.step)
             row |= _unbracketed(walked(packing, rule, coarse, keeper, f"seed-{seed}-unbracketed"))
+            row |= bracket_ends(brackets(packing, rule, choices))
         return row
 
     config = {"law": asdict(law), "shear": asdict(choices), "unbracketed": unbracketed}
@@ -128,6 +134,8 @@ def _events(events: list[Event], rule: Interaction) -> dict[str, object]:
         f"event_{name}": [getattr(e, name) for e in events] for name in ("kind", "opened", "closed")
     }
     row["event_displacement"] = np.stack([_three(e.displacement) for e in events])
+    poles = [rotational_poles(e.after, e.displacement) for e in events]
+    row["event_quadrupole"], row["event_other_poles"] = zip(*poles, strict=True)
     row["event_reopened"] = [reopened(e.before, e.after) for e in events]
     for number, side in enumerate(("before", "after")):
         balances = [Balance.of(getattr(e, side), rule) for e in events]

@@ -184,3 +184,8 @@ def test_a_shear_without_brackets_stands_beside_it():
     alone = shear_block(one, LAW, Shear(strain=0.03, step=1e-3, smallest_step=1e-3)).variables
     stress = 0.5 * (alone["curve_stress_xy"] + alone["curve_stress_yx"])
     np.testing.assert_array_equal(values["unbracketed_stress"], stress)
+    width = values["bracket_strain_after"] - values["bracket_strain_before"]
+    np.testing.assert_allclose(
+        values["bracket_smallest_step"], choices.step / 10.0 ** np.arange(7)[None]
+    )
+    assert np.isnan(width).all() or np.allclose(width, values["bracket_smallest_step"])

@@ -73,6 +73,10 @@ NAMES = {
     "event_displacement": Variable(
         (*GRAINS, "component"), "f8", "d", "displacement in an event, (x, y, l); its mean is 0"
     ),
+    "event_quadrupole": Variable(
+        EVENT, "f8", "1", "p_2 of the rotations around the grain that moves farthest; NaN: none"
+    ),
+    "event_other_poles": Variable(EVENT, "f8", "1", "mean of their p_1, p_3 and p_4"),
     # the last state
     "last_asymmetry": Variable(BLOCK, "f8", "1", "max |J - J^T| / max |J| of the last state"),
     "last_complex_pairs": Variable(

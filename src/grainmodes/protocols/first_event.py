@@ -11,6 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from grainmodes.packing import Packing
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear import Walk, steps_per_grid
@@ -68,6 +70,15 @@ def brackets(packing: Packing, interaction, choices: Shear) -> list[Bracket]:
         now = replace(start, units=start.units * 10**decade)
         found.append(bracketed(Walk(now, of, steps_per_grid(of), curve=curve.copy())))
     return found
+
+
+def bracket_ends(found: list[Bracket]) -> dict[str, list[float]]:
+    """Both sides of the first event in every bracket; NaN where there is no event."""
+    return {
+        "bracket_smallest_step": [b.smallest_step for b in found],
+        "bracket_strain_before": [b.before.strain if b.event else np.nan for b in found],
+        "bracket_strain_after": [b.after.strain if b.event else np.nan for b in found],
+    }
 
 
 def bracketed(walk: Walk) -> Bracket:
