@@ -38,7 +38,7 @@ BASIN = 1e-4
 """max|F̃|, relative to the mean contact force, at which dynamics hands over to Newton's method: by
 then it has decided which contacts open and close (docs/numerics.md)."""
 
-DEEPER = 0.01
+DEEPER = 0.1
 """Factor on that where Newton's method leaves the basin."""
 
 

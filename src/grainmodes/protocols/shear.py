@@ -102,7 +102,9 @@ class Walk:
         units = self.now.units + size
         strain = units * self.choices.smallest_step
         balance, by_dynamics = step_to(strain, self.now.balance, self.choices)
-        return State(balance, units, self.choices.loaded, by_dynamics)
+        return State(
+            balance, units, self.choices.loaded, by_dynamics, self.now.response.displacement
+        )
 
     def _take(self, after: State, kind: int) -> None:
         opened, closed = network_changes(self.now.balance, after.balance)

@@ -47,12 +47,16 @@ class Change(NamedTuple):
 
 @dataclass(frozen=True)
 class State:
-    """A balance at a strain of `units` Δγ_Th; `jumped`: the dynamics had to find it."""
+    """A balance at a strain of `units` Δγ_Th; `jumped`: the dynamics had to find it.
+
+    `drift` is the non-affine field dq̊/dγ of a state near it, from which its own is iterated.
+    """
 
     balance: Balance
     units: int
     loaded: bool
     jumped: bool = False
+    drift: np.ndarray | None = None
 
     @property
     def strain(self) -> float:
@@ -72,7 +76,7 @@ class State:
         step = AffineStep(
             balance.backbone, balance.backbone_contacts, balance.interaction, self.loaded
         )
-        return step.moduli(balance.solved(step.force))
+        return step.moduli(balance.solved(step.force, self.drift))
 
     @cached_property
     def modulus(self) -> np.ndarray:

@@ -175,8 +175,8 @@ class Balance:
             return self.factor.unstable
         return False
 
-    def solved(self, force: np.ndarray) -> np.ndarray:
-        """u with J u = `force`, (kN',).
+    def solved(self, force: np.ndarray, near: np.ndarray | None = None) -> np.ndarray:
+        """u with J u = `force`, (kN',); inherited factors start from a field `near` it.
 
         Raises:
             FloppyError: the backbone has zero modes beyond the translations.
@@ -184,7 +184,11 @@ class Balance:
         if self.fitted is None:
             return self.factor.solve(force)
         wanted = force.ravel()
-        u, left, goal = np.zeros(len(wanted)), wanted, EXACT * np.abs(wanted).max(initial=0.0)
+        goal = EXACT * np.abs(wanted).max(initial=0.0)
+        u, left = np.zeros(len(wanted)), wanted
+        if near is not None and near.size == len(wanted):
+            u = near.ravel()
+            left = wanted - self.matrix @ u
         while (size := np.abs(left).max(initial=0.0)) > goal:
             u = u + self.fitted.solve(left)
             left = wanted - self.matrix @ u

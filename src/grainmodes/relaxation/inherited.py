@@ -28,7 +28,7 @@ from grainmodes.packing import Contacts
 CHANGED = 0.03
 """Change of the stiffness of a contact, in the largest of all, that is more than small."""
 
-MOST_CHANGED = 20
+MOST_CHANGED = 12
 """Contacts beyond which new factors are cheaper: each of them costs k solutions."""
 
 
