@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import scipy.linalg
 
+from grainmodes.dataset.files import Block
 from grainmodes.jacobian import jacobian
 from grainmodes.kernels.laws import Interaction, interaction
 from grainmodes.packing import find_contacts
@@ -15,6 +16,7 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.release import Release
 from grainmodes.protocols.release import Run
 from grainmodes.protocols.unstable import Unstable
+from grainmodes.rows import block_of
 from grainmodes.stability import INERTIA
 from specimens import SHEARED, reference, smoothed_coulomb
 
@@ -48,3 +50,28 @@ def released(choices: Release = SHORT, drag: float = 0.0) -> Run:
 def series(run: Run, name: str) -> np.ndarray:
     """One quantity of all records."""
     return np.array([getattr(record, name) for record in run.records])
+
+
+def pairs_block() -> Block:
+    """A block as the stage `pairs` leaves it: this state, and a sample that met none."""
+    start, law, _ = state()
+    packing, mode = start.packing, start.mode
+    row = {
+        "converged": True,
+        "unstable_found": 1,
+        "unstable_strain": packing.strain,
+        "unstable_fraction": packing.fraction.T,
+        "unstable_rotation": packing.rotation,
+        "unstable_contact_i": packing.history.i,
+        "unstable_contact_j": packing.history.j,
+        "unstable_slip": packing.history.tangential_displacement,
+        "unstable_eigenvalue_real": start.eigenvalue.real,
+        "unstable_eigenvalue_imag": start.eigenvalue.imag,
+        "unstable_mode_real": mode.real,
+        "unstable_mode_imag": mode.imag,
+        **{name: getattr(packing, name) for name in ("diameter", "mass", "box_length")},
+    }
+    point = {"n": packing.n, "phi": packing.phi, "kt": law.kt, "stage": "pairs"}
+    return block_of(
+        range(2), [row, {"converged": True, "unstable_found": 0}].__getitem__, {}, point
+    )

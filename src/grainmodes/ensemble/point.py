@@ -27,10 +27,21 @@ STAGES = (
     "spectrum_hessian",
     "probes",
     "shear",
+    "release",
 )
 """Values of the attribute `stage`, in the order in which names win."""
 
-SERIES = ("mode", "edge", "bin", "probe", "state", "unbracketed_state", "event", "change")
+SERIES = (
+    "mode",
+    "edge",
+    "bin",
+    "probe",
+    "state",
+    "unbracketed_state",
+    "event",
+    "change",
+    "damping",
+)
 
 PER_SAMPLE = (("seed",), *(("seed", name) for name in SERIES))
 """Dimensions of the variables that a point keeps."""

@@ -17,7 +17,7 @@ class Release:
     """
 
     time_step: float = 0.1
-    duration: float = 60.0
+    duration: float = 80.0
     kick: float = 1e-11
     dampings: tuple[float, ...] = (0.1, 1.0, 3.0, 10.0, 100.0)
     records: int = 2000

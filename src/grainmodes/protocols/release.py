@@ -1,4 +1,4 @@
-"""An unstable state let go: Newtonian dynamics, or with a drag −η_0 q̇, and what it does: C, VI, VII.
+"""An unstable state let go: Newtonian dynamics, or with a drag, and what it does: C, VI and VII.
 
     M q̈ = F̃(q, s) − η_0 M q̇,   q(0) in balance,   q̇(0) along ü^m of C (28), or 0: round-off alone
 
@@ -6,8 +6,8 @@ Velocity Verlet in pieces from look to look. It is looked at
 
     in even intervals, `records` of them, and before that as often as time grows by a tenth;
     closely, once M has reached 1e-16 d²: over `TURNS` turns of 2π/ω_r, to see them, and
-    then `FRAMES` times within 1.5 / ω_i, each a 24th of a turn further than the one before: a
-    film in which the spirals turn, however many turns the growth takes (C, Fig. 5).
+    then `FRAMES` times within about 1.5 / ω_i, each a 24th of a turn further than the one before:
+    a film in which the spirals turn, however many turns the growth takes (C, Fig. 5).
 
 Verlet turns a mode of frequency Ω at (2/Δt) arcsin(ΩΔt/2), so that ω_i is too large by the part
 (ω_r Δt)²/8 and ω_r by (ω_r Δt)²/24; at Δt = 0.1 that is 1e-3 and less.
@@ -37,6 +37,9 @@ TURNS, LOOKS_A_TURN = 12, 24
 
 FRAMES, FILMED = 240, 1.5
 """Frames of the film, and how long it is in 1/ω_i."""
+
+MOST_FOR_SPECTRA = 1500
+"""Degrees of freedom up to which eigenvalues are found on the way, in 3 s a time."""
 
 
 @dataclass
@@ -88,6 +91,9 @@ class Run:
         """Whether it has ended."""
         return self.steps >= self.last
 
+    restartable = True
+    """A run goes on to the same bytes from between any two looks."""
+
     def advance(self) -> None:
         """Move on to the next look, and look."""
         upcoming = self._next()
@@ -129,7 +135,8 @@ class Run:
 
     def _wants_spectrum(self) -> bool:
         every = self._interval * max(1, self.choices.records // max(self.choices.spectra, 1))
-        return self.choices.spectra > 0 and not self.drag and self.steps % every == 0
+        asked = self.choices.spectra > 0 and not self.drag
+        return asked and 3 * self.start.packing.n <= MOST_FOR_SPECTRA and self.steps % every == 0
 
     def _look_closely(self) -> None:
         """Plan the close looks."""

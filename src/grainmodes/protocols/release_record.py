@@ -61,7 +61,7 @@ def record(time: float, now: Motion, start: Packing, interaction: Interaction) -
 
 
 class Burden(NamedTuple):
-    """What the grains bear: contacts (N,) and P_i (N,) of each, r_ij · f_ij (C,) of each contact."""
+    """Contacts (N,) and P_i (N,) of every grain, r_ij · f_ij (C,) of every contact."""
 
     contacts: np.ndarray
     pressure: np.ndarray

@@ -53,6 +53,6 @@ def test_settings_are_a_piece_of_a_configuration(stage):
     settings = json.loads(scene_with("protocol.rattlers.threshold", 1).settings(stage))
     grid = GRID | {"observables": settings.pop("observables", {})}
     scene = scene_of({**settings, "study": "small", "grids": [grid]})
-    parts = asdict(scene.protocol)
+    parts = json.loads(json.dumps(asdict(scene.protocol)))
     for name, part in settings["protocol"].items():
         assert parts[name] == part
