@@ -35,7 +35,7 @@ VISIBLE = 1e-16
 TURNS, LOOKS_A_TURN = 12, 24
 """Turns of 2π/ω_r that are looked at closely, and how often each."""
 
-FRAMES, FILMED = 240, 1.5
+FRAMES, FILMED = 144, 1.5
 """Frames of the film, and how long it is in 1/ω_i."""
 
 MOST_FOR_SPECTRA = 1500
