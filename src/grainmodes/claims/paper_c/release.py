@@ -41,7 +41,10 @@ def released(ensemble, *names: str) -> Iterator[tuple[str, dict[str, np.ndarray]
         NotAsked: the ensemble lacks one of the variables, or released samples.
     """
     names = ("rate_linear", *names)
-    samples = richest(ensemble, *(f"release_{name}" for name in names))
+    absent = [f"release_{name}" for name in names if f"release_{name}" not in ensemble]
+    if absent:
+        raise NotAsked(", ".join(absent))
+    samples = richest(ensemble, "release_rate_linear")
     for point in samples.points("release_rate_linear"):
         yield at(*point), _values(samples, point, names)
 
@@ -71,8 +74,8 @@ def spirals(ensemble) -> Outcome:
 def growth(ensemble) -> Outcome:
     """M(t) and A(t) grow as e^(2ω_i t), turning with ω_r, up to M ~ 1e-7 (Figs. 6, 7).
 
-    Of the run without damping: fitted rate and frequency of M and A over ω_i and ω_r, minus 1; log10
-    of M when contacts change first; the time from there to the end of the growth, in 1/ω_i.
+    Of the run without damping: fitted rate and frequency of M and A over ω_i and ω_r, minus 1;
+    log10 of M when contacts change first; the time from there to the end of the growth, in 1/ω_i.
 
     Criterion: rates and frequencies within ±1 %; log10 M within -8 ... -6; the time within ±2.
     """
@@ -91,8 +94,8 @@ def growth(ensemble) -> Outcome:
         parts.append(Part(f"end after it, {where}", mean(later), -SOON, SOON))
         swing = " and ".join(text(mean(of[name][:, 0])) for name in depths)
         notes.append(
-            f"At {where} M and A swing by {swing} of their means; e^(2ω_i t) sin²(ω_r t) would swing "
-            "by 1: it is the first turns after a kick alone."
+            f"At {where} M and A swing by {swing} of their means; e^(2ω_i t) sin²(ω_r t) would "
+            "swing by 1: only the first turns after a kick do."
         )
     return Outcome(parts, " ".join(notes))
 

@@ -43,7 +43,7 @@ def _figure(commands) -> None:
         "data",
         type=Path,
         nargs="+",
-        help="file of `grainmodes ensemble`, or files of `grainmodes fields`, `close-up` or `release`",
+        help="file of `grainmodes ensemble`, or files of `fields`, `close-up` or `release`",
     )
     _shown(command)
     command.add_argument("--fineness", type=float, help="factor on the numbers of linear bins")
