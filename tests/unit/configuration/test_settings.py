@@ -14,7 +14,7 @@ from scenes import (
 SPECTRA = {"spectrum", "spectrum_rattlers", "spectrum_hessian"}
 SHEARED = {"shear", "close_up"}
 STAGES = [
-    *("compress", "rigidity", "step_strain", "fields", "probes", "ensemble"),
+    *("compress", "rigidity", "step_strain", "fields", "probes", "release", "ensemble"),
     *sorted(SPECTRA | SHEARED),
 ]
 DEPENDENCE = {
@@ -25,6 +25,7 @@ DEPENDENCE = {
     ),
     "protocol.step_strain.strain": (1e-5, {"step_strain", "fields", "probes", "ensemble"}),
     "protocol.shear.strain": (0.2, SHEARED | {"ensemble"}),
+    "protocol.release.kick": (0.0, {"release", "ensemble"}),
     "protocol.spectrum.fineness": (1.0, SPECTRA | {"ensemble"}),
     "contact_law.normal": ("harmonic", set(STAGES)),
     "grid.seeds": (8, set()),
