@@ -1,11 +1,13 @@
 """Unstable states let go: the kick, what is looked at, and linear theory as long as it holds."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from grainmodes.forces import energy, stress
+from grainmodes.jacobian import jacobian
 from grainmodes.kernels.damping import Drag, Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Elastic, Hertz, Interaction, interaction
@@ -14,8 +16,10 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.release import Release
 from grainmodes.protocols.growth import FEWEST, fitted
 from grainmodes.protocols.release import FRAMES, Run
-from grainmodes.protocols.release_record import burden, record
+from grainmodes.protocols.release_fate import fate_of
+from grainmodes.protocols.release_record import Record, burden, record
 from grainmodes.relaxation.dynamics import Motion, move
+from grainmodes.stability import INERTIA
 from released import SHORT, released, series, state
 from specimens import crowd, reference
 
@@ -207,6 +211,64 @@ def test_a_film_shows_every_grain_a_part_of_a_turn_apart():
     turns = np.diff(steps) * SHORT.time_step * start.frequency / (2 * np.pi)
     np.testing.assert_allclose(turns - np.rint(turns), 1 / 24, atol=0.02)
     assert (steps[-1] - steps[0]) * SHORT.time_step * start.rate == pytest.approx(2.0, abs=0.8)
+
+
+@pytest.mark.parametrize("times", [1.8, 2.2])
+def test_growth_stops_at_a_drag_of_twice_its_rate(times):
+    """Not at ω_i: s² + ηs + λ' = 0 has Re s = ω_i − η/2."""
+    start, _, _ = state()
+    run = released(SHORT, drag=times * start.rate)
+    time, square = series(run, "time"), series(run, "mean_square_displacement")
+    means = [
+        np.log(square[(time >= a * time[-1]) & (time <= (a + 0.1) * time[-1])].mean())
+        for a in (0.2, 0.8)
+    ]
+    expected = 2.0 * (1.0 - 0.5 * times) * start.rate * 0.6 * time[-1]
+    assert means[1] - means[0] == pytest.approx(expected, rel=0.1, abs=0.05)
+
+
+def test_the_fate_of_a_run_is_told_from_its_records():
+    """A made-up run: growth, contacts change at 5e-8, a plateau from 1e-7 on, a second rise."""
+    start, _, _ = state()
+    rate, turn = start.rate, 2 * np.pi / start.frequency
+    even = np.arange(0.0, 60.0, 0.05) / rate
+    time = np.unique(np.concatenate([even, 7.0 / rate + turn / 24 * np.arange(288)]))
+    law = 1e-22 * np.exp(2 * rate * time)
+    square = np.minimum(law * (1 + 0.2 * np.cos(2 * start.frequency * time)), 1e-7)
+    square[time > 50.0 / rate] = 0.1
+    blank = np.zeros(len(Record._fields))
+    records = [
+        Record(*(t, m, m), *blank[3:])._replace(changed=int(m > 5e-8))
+        for t, m in zip(time, square, strict=True)
+    ]
+    fate = fate_of(SimpleNamespace(start=start, drag=0.0, records=records))
+    grown = np.log(1e-7 / 1e-22) / 2
+    assert fate.displacement.rate == pytest.approx(rate, rel=1e-6)
+    assert fate.displacement.depth == pytest.approx(0.2, rel=1e-3)
+    assert fate.rotation == pytest.approx(fate.displacement)
+    assert fate.end.time * rate == pytest.approx(grown + 0.5 * np.log(2.0), abs=0.2)
+    assert fate.end.square == pytest.approx(2e-7, rel=0.3)
+    assert fate.change.time * rate == pytest.approx(grown + 0.5 * np.log(0.5), abs=0.2)
+    assert 5e-8 < fate.change.square <= 1e-7
+    assert fate.second == (pytest.approx(50.05 / rate, rel=1e-3), 0.1)
+    assert (fate.largest, fate.after.mean_square_displacement) == (0.1, pytest.approx(0.1))
+
+
+def test_what_does_not_happen_has_no_moment():
+    fate = fate_of(released(SHORT, drag=10.0 * state()[0].rate))
+    assert np.isnan([*fate.displacement, *fate.end, *fate.change, *fate.second]).all()
+
+
+def test_equation_25_needs_the_other_vector_in_its_last_term():
+    """J u_i = λ_i u_r + λ_r u_i; printed is λ_r u_r."""
+    start, _, rule = state()
+    matrix = jacobian(start.packing, find_contacts(start.packing), rule)
+    inertia = (start.packing.mass[:, None] * INERTIA).ravel()
+    u_r, u_i = start.mode.real.ravel(), start.mode.imag.ravel()
+    found, value = matrix @ u_i / inertia, start.eigenvalue
+    right, printed = (value.imag * u_r + value.real * of for of in (u_i, u_r))
+    assert np.abs(found - right).max() < 1e-13
+    assert np.abs(found - printed).max() > 0.01
 
 
 def test_a_state_that_leaves_too_slowly_is_refused():
