@@ -71,7 +71,7 @@ def pairs_block() -> Block:
         "unstable_mode_imag": mode.imag,
         **{name: getattr(packing, name) for name in ("diameter", "mass", "box_length")},
     }
-    point = {"n": packing.n, "phi": packing.phi, "kt": law.kt, "stage": "pairs"}
+    point = {"n": packing.n, "phi": round(packing.phi, 12), "kt": law.kt, "stage": "pairs"}
     return block_of(
         range(2), [row, {"converged": True, "unstable_found": 0}].__getitem__, {}, point
     )
