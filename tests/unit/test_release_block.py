@@ -18,7 +18,7 @@ from grainmodes.ensemble.point import merge_blocks
 from grainmodes.forces import largest, net_force
 from grainmodes.packing import find_contacts
 from grainmodes.parameters.release import Release
-from grainmodes.protocols.release import Run
+from grainmodes.protocols.release import FRAMES, Run
 from grainmodes.release_blocks import release_block, unstable_of
 from released import pairs_block, state
 
@@ -73,7 +73,7 @@ def test_spectra_are_those_of_the_state_at_their_times(block):
 
 def test_the_film_holds_the_spirals_of_the_eigenvector(block):
     values = block.variables
-    assert values["release_film"].shape == (2, 240, 50, 3)
+    assert values["release_film"].shape == (2, FRAMES, 50, 3)
     assert values["release_spiral_overlap"][0] == pytest.approx(1.0, abs=1e-6)
     assert values["release_spiral_misfit"][0] < 1e-3
     assert 0.1 < values["release_spiral_opening"][0] < 0.9
