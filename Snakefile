@@ -8,6 +8,7 @@
 #
 # trajectories -> packings -> {rigidity, step_strain, spectra, probes} -> points -> ensemble
 #                        \-> fields, close_up -> figures         ensemble -> figures, claims
+#                         pairs -> release -> figures, film
 
 
 include: "workflow/rules/common.smk"

@@ -13,7 +13,7 @@ import numpy as np
 from grainmodes.kernels.assembly import on_grains
 from grainmodes.kernels.contacts import contact_forces, normal_forces
 from grainmodes.kernels.energies import contact_energies
-from grainmodes.kernels.laws import Frictionless, Interaction
+from grainmodes.kernels.laws import Elastic, Frictionless, Interaction
 from grainmodes.packing import Contacts, Packing
 
 SIGNS = np.array([-1.0, -1.0, 1.0])
@@ -36,6 +36,23 @@ def tangential_forces(interaction: Interaction, overlap: np.ndarray, s: np.ndarr
     """f_T of contacts with these overlaps and tangential displacements, (C,)."""
     along_x = np.tile([1.0, 0.0], (len(s), 1))
     return contact_forces(interaction, along_x, overlap, s)[:, 2]
+
+
+AT_THRESHOLD = 1.0 - 1e-12
+"""Part of s* from which a contact slides; the sharp law holds its springs at s* to rounding."""
+
+
+def sliding(contacts: Contacts, interaction: Interaction) -> np.ndarray:
+    """Contacts at Coulomb's threshold, |s| ≥ s* = μ (k_N/k_T) ξ: (C,) bool; C (8).
+
+    None without friction, or with springs that never slip.
+    """
+    tangential = interaction.tangential
+    if isinstance(tangential, Frictionless | Elastic):
+        return np.zeros(len(contacts.i), bool)
+    softness = interaction.normal.stiffness / tangential.stiffness
+    threshold = tangential.friction_coefficient * softness * contacts.overlap
+    return np.abs(contacts.displacement) >= AT_THRESHOLD * threshold
 
 
 def net_force(packing: Packing, contacts: Contacts, interaction: Interaction) -> np.ndarray:

@@ -35,10 +35,18 @@ def complex_pairs(packing: Packing, interaction: Interaction) -> int:
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
+    return int(np.count_nonzero(eigenvalues(packing, interaction).imag > REAL))
+
+
+def eigenvalues(packing: Packing, interaction: Interaction) -> np.ndarray:
+    """All 3N eigenvalues of M⁻¹J, complex, in no order; dense, for states in balance or not.
+
+    Raises:
+        numpy.linalg.LinAlgError: the eigensolver did not converge.
+    """
     matrix = jacobian(packing, find_contacts(packing), interaction).toarray()
     scale = 1.0 / np.sqrt(packing.mass[:, None] * INERTIA).ravel()
-    values = scipy.linalg.eigvals(scale[:, None] * matrix * scale, overwrite_a=True)
-    return int(np.count_nonzero(values.imag > REAL))
+    return scipy.linalg.eigvals(scale[:, None] * matrix * scale, overwrite_a=True)
 
 
 def asymmetry(matrix: sparse.csc_array) -> float:

@@ -17,7 +17,7 @@ import numpy as np
 
 from grainmodes import blocks
 from grainmodes.dataset.files import write_block
-from grainmodes.kernels.damping import Dashpot
+from grainmodes.kernels.damping import Dashpot, Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.fire import FireSettings, fire
 from grainmodes.kernels.laws import Hertz, interaction
@@ -85,12 +85,20 @@ def fire_step(n: int) -> float:
 
 def frictional_step(n: int) -> float:
     """Damped dynamics with tangential history per grain and step, in ns, at φ = 0.90."""
-    packing = quenched(n, 0.9).sheared(1e-4)
-    rule = interaction(ContactLaw(kt=1.0))
+    return _step(n, ContactLaw(kt=1.0), Dashpot(1.0), 1e-2)
+
+
+def newtonian_step(n: int) -> float:
+    """The same without damping for C's smoothed Coulomb law, as in a release."""
+    return _step(n, ContactLaw("hertz", "smoothed_coulomb", 2 / 7, 10.0), Undamped(), 0.1)
+
+
+def _step(n: int, law: ContactLaw, damping, time_step: float) -> float:
+    packing, rule = quenched(n, 0.9).sheared(1e-4), interaction(law)
     steps = 4_000_000 // n
 
     def run(count):
-        move(packing, np.zeros((n, 3)), rule, Dashpot(1.0), 1e-2, Stop(0.0, count))
+        move(packing, np.zeros((n, 3)), rule, damping, time_step, Stop(0.0, count))
 
     run(1)
     return (cpu(run, steps + 1) - cpu(run, 1)) / steps / n * 1e9

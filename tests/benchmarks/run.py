@@ -30,6 +30,7 @@ CASES = (
     ("FIRE, per grain and step", "fire_step", 16384, 25.0, "ns"),
     ("FIRE, per grain and step", "fire_step", 65536, 25.0, "ns"),
     ("frictional dynamics with history, per grain and step", "frictional_step", 4096, 50.0, "ns"),
+    ("Newtonian dynamics of paper C, per grain and step", "newtonian_step", 4096, 60.0, "ns"),
     ("trajectory with eight phi, each to 1e-14", "trajectory", 4096, 300.0, "s"),
     ("g, g_A, g_NA from a packing", "moduli", 4096, 0.25, "s"),
     ("g, g_A, g_NA from a packing", "moduli", 65536, 3.0, "s"),

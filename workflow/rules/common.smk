@@ -117,11 +117,24 @@ def files_of(room, points):
 
 
 def samples_of(stage):
-    """The files of a stage that keeps one sample of every point that asks for it."""
+    """The files of a stage that keeps grains: one sample of every point that asks, or all."""
+    if stage == "release":
+        return releases()
     points = {"fields": scene.field_points, "close_up": scene.close_up_points}
     return files_of(stage, points[stage])
 
 
+def releases():
+    """The files of all samples that are released."""
+    files = []
+    for p in scene.release_points:
+        names = {key: format_value(value) for key, value in vars(p).items()}
+        blocks = scene.blocks_of(p.n, p.phi, p.kt)
+        files += expand(f"{STUDY}/release/{RESPONSE}", seeds=blocks, **names)
+    return files
+
+
 def figures():
     """Every file of every figure that the scene asks for."""
-    return [f"{STUDY}/figures/{name}.{form}" for name in scene.figures for form in FORMS]
+    films = [f"{STUDY}/figures/release_spirals.gif"] if "release_spirals" in scene.figures else []
+    return films + [f"{STUDY}/figures/{name}.{form}" for name in scene.figures for form in FORMS]

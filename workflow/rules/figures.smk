@@ -1,6 +1,18 @@
 # The ensemble, and files of single samples -> pictures, and the plotted numbers beside them.
 
 
+rule film:
+    input:
+        data=releases(),
+        code=sources("grainmodes.figures.film"),
+    output:
+        f"{STUDY}/figures/release_spirals.gif",
+    message:
+        "Draw the spirals of a released sample as a film."
+    shell:
+        "grainmodes film {input.data} -o {output}"
+
+
 rule figure:
     input:
         data=data_of_figure,

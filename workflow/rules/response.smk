@@ -107,6 +107,21 @@ rule shear:
         " --settings {params.settings:q} -o {output}"
 
 
+rule release:
+    input:
+        pairs=f"{STUDY}/pairs/{RESPONSE}",
+        code=sources("grainmodes.release_blocks:release_block", "grainmodes.cli.keeping"),
+    output:
+        f"{STUDY}/release/{RESPONSE}",
+    params:
+        settings=scene.settings("release"),
+    message:
+        f"Release at {AT}."
+    shell:
+        "grainmodes release {input.pairs} --kt {wildcards.kt}"
+        " --settings {params.settings:q} -o {output}"
+
+
 rule fields:
     input:
         packings=first_packings,

@@ -45,6 +45,15 @@ def _source(arguments: Namespace) -> Path | list[Path]:
     return arguments.data[0]
 
 
+def film(arguments: Namespace) -> None:
+    """Released samples → the film of one of them."""
+    from grainmodes.figures import film
+
+    asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "seed")}
+    options = {name: value for name, value in asked.items() if value is not None}
+    film.write(arguments.data, arguments.output, options)
+
+
 def claims(arguments: Namespace) -> None:
     """An ensemble → the verdict on every claim."""
     from grainmodes.claims import check, report

@@ -1,9 +1,9 @@
 """Long walks kept beside their output, and a line that says how far they are.
 
-A walk is pickled to `.<output>.<name>.kept`, written whole or not at all. It is taken up again only
-by the same code, from the same packings with the same choices; anything else on that path is passed
-over. An interrupted sample so goes on where it stood some minutes before, and ends with the same
-bytes.
+A walk is a shear, or the run of a release. It is pickled to `.<output>.<name>.kept`, written whole
+or not at all. It is taken up again only by the same code, from the same packings with the same
+choices; anything else on that path is passed over. An interrupted sample so goes on where it stood
+some minutes before, and ends with the same bytes.
 """
 
 from __future__ import annotations
@@ -12,12 +12,15 @@ import hashlib
 import pickle
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from grainmodes.atomic import replaced
 from grainmodes.dataset.files import Block
+from grainmodes.protocols.release import Run
 from grainmodes.protocols.shear import Walk
 from grainmodes.provenance import code_version
 
@@ -33,6 +36,29 @@ def fingerprint(packings: Block) -> str:
     return digest.hexdigest()
 
 
+class Progress(NamedTuple):
+    """How far a walk is: the part done, where that is in words, and a count of some unit."""
+
+    done: float
+    words: str
+    count: int
+    unit: str
+
+
+def of_walk(walk: Walk) -> Progress:
+    """How far a shear is."""
+    strain, last = walk.now.strain, walk.choices.strain
+    words = f"strain {strain:.4f} of {last:g}, {len(walk.events)} events"
+    return Progress(strain / last, words, len(walk.curve), "states")
+
+
+def of_run(run: Run) -> Progress:
+    """How far the run of a release is."""
+    square = run.records[-1].mean_square_displacement
+    words = f"{run.steps} of {run.last} steps, M = {square:.1e}"
+    return Progress(run.steps / run.last, words, run.steps, "steps")
+
+
 class Keeping:
     """Keeps the walks of one output file.
 
@@ -40,21 +66,28 @@ class Keeping:
         output: the file that will hold the finished block.
         start: all that a walk depends on besides the code: law, choices, packings.
         seconds: how often a walk is kept.
+        progress: tells how far a walk is.
     """
 
-    def __init__(self, output: Path, start: tuple, seconds: float):
-        self._output, self._seconds = output, seconds
+    def __init__(
+        self,
+        output: Path,
+        start: tuple,
+        seconds: float,
+        progress: Callable[[Walk | Run], Progress] = of_walk,
+    ):
+        self._output, self._seconds, self._progress = output, seconds, progress
         self._mark = (code_version(), start)
         self._kept: set[Path] = set()
 
-    def kept(self, name: str) -> Walk | None:
+    def kept(self, name: str) -> Walk | Run | None:
         """The walk of this name as far as it came, if this code kept one."""
         walk = self._read(self._path(name))
         self._started = self._kept_at = self._said_at = time.monotonic()
-        self._from = (walk.now.strain, len(walk.curve)) if walk else (0.0, 0)
+        self._from = self._progress(walk) if walk else Progress(0.0, "", 0, "")
         return walk
 
-    def _read(self, path: Path) -> Walk | None:
+    def _read(self, path: Path) -> Walk | Run | None:
         if not path.is_file():
             return None
         self._kept.add(path)
@@ -64,7 +97,7 @@ class Keeping:
             return None  # a foreign or a broken file: the sample begins anew
         return walk if mark == self._mark else None
 
-    def watch(self, name: str, walk: Walk) -> None:
+    def watch(self, name: str, walk: Walk | Run) -> None:
         """Keep the walk if it is time to; say how far it is."""
         now = time.monotonic()
         if now - self._kept_at > self._seconds and walk.restartable:
@@ -85,15 +118,14 @@ class Keeping:
     def _path(self, name: str) -> Path:
         return self._output.with_name(f".{self._output.name}.{name}.kept")
 
-    def _say(self, name: str, walk: Walk, now: float) -> None:
+    def _say(self, name: str, walk: Walk | Run, now: float) -> None:
         self._said_at = now
-        strain, last, elapsed = walk.now.strain, walk.choices.strain, now - self._started
-        first, states = self._from
-        left = (last - strain) / (strain - first) * elapsed if strain > first else float("inf")
-        pace = (len(walk.curve) - states) / elapsed
+        first, here, elapsed = self._from, self._progress(walk), now - self._started
+        way = here.done - first.done
+        left = (1.0 - here.done) / way * elapsed if way > 0.0 else float("inf")
+        pace = (here.count - first.count) / elapsed
         print(
-            f"{name}: strain {strain:.4f} of {last:g}, {len(walk.events)} events, "
-            f"{pace:.0f} states per second, {left / 60.0:.0f} min left",
+            f"{name}: {here.words}, {pace:.0f} {here.unit} per second, {left / 60.0:.0f} min left",
             file=sys.stderr,
             flush=True,
         )

@@ -142,6 +142,21 @@ def close_up(arguments: Namespace) -> None:
     write_block(arguments.output, block)
 
 
+def release(arguments: Namespace) -> None:
+    """Samples with their complex pairs → what becomes of their unstable states."""
+    from grainmodes.cli.keeping import Keeping, fingerprint, of_run
+    from grainmodes.release_blocks import release_block
+
+    scene = _scene(arguments.settings, kt=arguments.kt)
+    law, choices = scene.law_at(arguments.kt), scene.protocol.release
+    with _opened(arguments.pairs, "pairs") as pairs:
+        start = law, choices, fingerprint(pairs)
+        keeping = Keeping(arguments.output, start, arguments.keep_every, of_run)
+        block = release_block(pairs, law, choices, keeping)
+    write_block(arguments.output, block)
+    keeping.forget()
+
+
 def point(arguments: Namespace) -> None:
     """Everything of one point, without files between."""
     from grainmodes.point import point_block

@@ -25,6 +25,7 @@ class Observables:
     shear: bool = False
     unbracketed: bool = False
     close_up: bool = False
+    release: bool = False
 
     @property
     def words(self) -> set[str]:
@@ -39,6 +40,7 @@ class Observables:
             "shear": self.shear,
             "unbracketed": self.shear and self.unbracketed,
             "close_up": self.close_up,
+            "release": self.release,
         }
         return {word for word, here in offered.items() if here}
 
@@ -76,7 +78,7 @@ class Grid:
     def stages(self, kt: float) -> list[str]:
         """Stages that a point with this k_T asks for, beside packings and single samples.
 
-        Without rotation the effective Hessian is J, and there is nothing to probe.
+        Without rotation the effective Hessian is J, and there is nothing to probe or to release.
         """
         asked = self.observables
         wanted = {
@@ -87,6 +89,7 @@ class Grid:
             "spectrum_hessian": asked.hessian and kt > 0.0,
             "probes": asked.probes and kt > 0.0,
             "shear": asked.shear,
+            "release": asked.release and kt > 0.0,
         }
         return [stage for stage, here in wanted.items() if here]
 

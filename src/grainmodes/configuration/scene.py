@@ -10,6 +10,7 @@ from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import Point, seed_blocks
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.protocol import Protocol
+from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import Shear, StepStrain
 
@@ -42,6 +43,9 @@ class Scene:
                 Compression(**protocol["compression"]),
                 StepStrain(**protocol["step_strain"]),
                 Shear(**protocol["shear"]),
+                Release(
+                    **protocol["release"] | {"dampings": tuple(protocol["release"]["dampings"])}
+                ),
                 Rattlers(**protocol["rattlers"]),
                 SpectrumChoices(**protocol["spectrum"]),
             ),
@@ -67,6 +71,12 @@ class Scene:
     def close_up_points(self) -> list[Point]:
         """The points of the grids that ask for a close-up."""
         return [point for grid in self.grids if grid.observables.close_up for point in grid.points]
+
+    @property
+    def release_points(self) -> list[Point]:
+        """The points of the grids that ask for a release, those without friction left out."""
+        asking = (grid for grid in self.grids if grid.observables.release)
+        return [point for grid in asking for point in grid.points if point.kt > 0.0]
 
     def grid_at(self, n: int, phi: float, kt: float) -> Grid:
         """The grid of a point; the first for a point off the grids."""
@@ -111,6 +121,7 @@ class Scene:
             "shear": _part(law, protocol, "shear")
             | {"observables": {"shear": True, "unbracketed": unbracketed}},
             "close_up": _part(law, protocol, "shear"),
+            "release": _part(law, protocol, "release"),
             "ensemble": _part(law, protocol, *protocol) | {"study": self.study},
         }
         return json.dumps(parts[stage], sort_keys=True)

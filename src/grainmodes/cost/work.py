@@ -3,7 +3,8 @@
 Spectra follow the rules by which the stages choose a method: LAPACK up to a size; beyond, counts
 at the edges of bins, or windows of eigenpairs. ψ^R of a bin is counted in `substeps` cells: each at
 its end on the diagonal and at two corners, and pairs of cells once more at two, four counts a cell.
-p takes the eigenpairs of a bin, at most `modes_per_bin`. A shear is priced per step of 1e-4.
+p takes the eigenpairs of a bin, at most `modes_per_bin`. A shear is priced per step of 1e-4, a
+release per run of 80 / ω_i in steps of 0.1 t_0.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from grainmodes.binning import (
 from grainmodes.cost.table import Table
 from grainmodes.parameters.factors import PARDISO_FROM
 from grainmodes.parameters.protocol import Protocol
+from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import (
     BINNED,
     DENSE_BINS_UP_TO,
@@ -48,7 +50,16 @@ def work(
         return _spectrum(kind, n, kt, choices, table)
     if stage == "shear":
         return {"shear": protocol.shear.strain / USUAL_STEP}
+    if stage == "release":
+        return {"release": _runs(protocol.release)}
     return {stage: 1}
+
+
+def _runs(choices: Release) -> float:
+    """Runs of a release in units of the usual one."""
+    usual = Release()
+    steps = choices.duration / choices.time_step / (usual.duration / usual.time_step)
+    return steps * (1 + len(choices.dampings))
 
 
 def degrees_of_freedom(n: int, kt: float) -> int:

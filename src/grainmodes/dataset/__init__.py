@@ -10,15 +10,27 @@ from grainmodes.dataset import (
     fields,
     packing,
     probes,
+    release,
     rigidity,
     shear,
     spectrum,
+    unstable,
 )
 from grainmodes.dataset.variable import Variable
 
 VARIABLES: dict[str, Variable] = {
     name: row
-    for theme in (packing, rigidity, spectrum, probes, fields, shear, close_up)
+    for theme in (
+        packing,
+        rigidity,
+        spectrum,
+        probes,
+        fields,
+        shear,
+        close_up,
+        unstable,
+        release,
+    )
     for name, row in theme.NAMES.items()
 }
 """Every name that a block or an ensemble may hold."""

@@ -27,6 +27,7 @@ STAGES = (
     "spectrum_hessian",
     "probes",
     "shear",
+    "release",
 )
 """Values of the attribute `stage`, in the order in which names win."""
 
@@ -40,6 +41,7 @@ SERIES = (
     "event",
     "change",
     "bracket",
+    "damping",
 )
 
 PER_SAMPLE = (("seed",), *(("seed", name) for name in SERIES))

@@ -26,8 +26,8 @@ GRAINS = {
 }
 """Columns that say which grain a row is about."""
 
-NAMES = {"fields": "fields", "close_up": "close-ups"}
-"""Stages that keep the grains of single samples, and what their files hold."""
+NAMES = {"fields": "fields", "close_up": "close-ups", "release": "releases"}
+"""Stages that keep the grains of samples, and what their files hold."""
 
 COMPONENTS = ("x", "y", "rotation")
 """Names of the components (x, y, ℓ), ℓ = d θ / 2."""
@@ -45,16 +45,17 @@ def read(paths: list[str | Path], needed: str = "fields") -> list[Block]:
     Raises:
         BlockError: a file is not readable, holds something else, or a point that another holds.
     """
-    found: dict[tuple, tuple[Path, Block]] = {}
+    found: dict[tuple, tuple[Path, Block]] = {}  # by point and seeds
     for path in paths:
         block = read_block(path)
         stage = block.attributes.get("stage", "something else")
         if stage != needed:
             raise BlockError(f"{path}: holds {stage}, needed here are {NAMES[needed]}")
-        point = tuple(block.attributes[name] for name in ("n", "phi", "kt"))
-        if point in found:
-            raise BlockError(f"{path}: its n, phi and kt also stand in {found[point][0]}")
-        found[point] = path, block
+        samples = tuple(block.attributes[name] for name in ("n", "phi", "kt"))
+        samples += tuple(block.variables["seed"].tolist())
+        if samples in found:
+            raise BlockError(f"{path}: its n, phi and kt also stand in {found[samples][0]}")
+        found[samples] = path, block
     return [block for _, block in found.values()]
 
 

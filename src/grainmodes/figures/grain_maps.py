@@ -64,7 +64,7 @@ def rounded(value: float) -> float:
 def draw_map(axes: Axes, of: pd.DataFrame, prefix: str, scale: Scale) -> Quiver:
     """Grains, colours, arrows and the box; returns the arrows, for `add_key`."""
     length = of["box_length"].iloc[0]
-    _discs(axes, of, of[f"{prefix}_rotation"].to_numpy(), scale.limit)
+    draw_discs(axes, of, of[f"{prefix}_rotation"].to_numpy(), scale.limit)
     arrows = axes.quiver(
         *(of[name] for name in ("x", "y", f"{prefix}_x", f"{prefix}_y")),
         pivot="mid",
@@ -90,8 +90,11 @@ def add_key(axes: Axes, arrows: Quiver, scale: Scale, unit: str) -> None:
     axes.quiverkey(arrows, 0.86, 1.05, scale.key, label, labelpos="E", labelsep=0.05)
 
 
-def _discs(axes: Axes, of: pd.DataFrame, rotation: np.ndarray, limit: float) -> None:
-    """Every grain as a circle of its colour, and its images that reach into the box."""
+def draw_discs(axes: Axes, of: pd.DataFrame, rotation: np.ndarray, limit: float) -> None:
+    """Every grain as a circle of its colour, and its images that reach into the box.
+
+    A rotation of NaN leaves the circle empty.
+    """
     faces = COLOURS(_norm(limit)(rotation))  # NaN is transparent
     place, grain = _with_images(of)
     diameter, outlined = of["diameter"].to_numpy()[grain], len(of) <= OUTLINED

@@ -216,6 +216,7 @@ def integrate(
     scratch = pair_scratch(pairs, 3)
     wandered, steps = np.int64(0), 0
     contact_pass(grains, box_length, strain, 0.0, pairs, interaction, damping, spring, scratch)
+    second_kick(grains, 0.0, damping)  # adds the drag alone: a run in pieces is the whole run
     left = np.inf
     while steps < stop.steps and left >= stop.tolerance:
         steps += 1

@@ -10,7 +10,7 @@ class Figure:
     """What a figure shows, what its study must ask for, and what it is drawn from.
 
     `observables` are words of `configuration.grids`; `source` is "ensemble", or the stage of the
-    files of single samples: "fields", "close_up".
+    files of single samples: "fields", "close_up", "release".
     """
 
     title: str
@@ -110,6 +110,33 @@ FIGURES = {
         "Stress and strain of an event in closer brackets (paper B, Figs. 11 and 12)",
         ("close_up",),
         "close_up",
+    ),
+    "release_spirals": Figure(
+        "Trajectories of the grains in a released complex pair (paper C, Fig. 5)",
+        ("release", "friction"),
+        "release",
+    ),
+    "release_growth": Figure(
+        "Growth of M(t) and A(t) in the linear regime (paper C, Fig. 6)",
+        ("release", "friction"),
+        "release",
+    ),
+    "release_fate": Figure(
+        "Long-time fate of released states (paper C, Fig. 7)", ("release", "friction"), "release"
+    ),
+    "release_spectrum": Figure(
+        "Complex pairs along a release (paper C, Fig. 8)", ("release", "friction"), "release"
+    ),
+    "release_contacts": Figure(
+        "Contacts along a release (paper C, Fig. 9)", ("release", "friction"), "release"
+    ),
+    "release_pressure": Figure(
+        "Pressures of contacts and grains before and after a release (paper C, Fig. 10)",
+        ("release", "friction"),
+        "release",
+    ),
+    "release_damping": Figure(
+        "Release under damping (paper C, Fig. 11)", ("release", "friction"), "release"
     ),
 }
 """Every figure. `rigidity` figures show the simulated step strain as well where a study has it;

@@ -32,8 +32,10 @@ def verdicts(ensemble, claims=paper_b.CLAIMS):
 
 def test_both_papers_stand_in_one_table():
     found = verdicts(claimed_shear.ensemble(), CLAIMS)
-    assert list(found) == [*(f"A{number}" for number in range(1, 20)), *NAMES]
-    assert {v.verdict for v in found.values()} == {HOLDS}
+    of_c = [name for name in found if name.startswith("C")]
+    assert list(found) == [*(f"A{number}" for number in range(1, 20)), *NAMES, *of_c]
+    assert {name for name, v in found.items() if v.verdict == NOT_ASKED} == set(of_c)
+    assert {v.verdict for name, v in found.items() if name not in of_c} == {HOLDS}
 
 
 @pytest.mark.parametrize(("name", "doctor"), [*DOCTORED.items(), *SECOND.items()])

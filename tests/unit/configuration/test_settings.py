@@ -14,7 +14,7 @@ from scenes import (
 SPECTRA = {"spectrum", "spectrum_rattlers", "spectrum_hessian"}
 SHEARED = {"shear", "close_up"}
 STAGES = [
-    *("compress", "rigidity", "step_strain", "fields", "probes", "ensemble"),
+    *("compress", "rigidity", "step_strain", "fields", "probes", "release", "ensemble"),
     *sorted(SPECTRA | SHEARED),
 ]
 DEPENDENCE = {
@@ -25,6 +25,7 @@ DEPENDENCE = {
     ),
     "protocol.step_strain.strain": (1e-5, {"step_strain", "fields", "probes", "ensemble"}),
     "protocol.shear.strain": (0.2, SHEARED | {"ensemble"}),
+    "protocol.release.kick": (0.0, {"release", "ensemble"}),
     "protocol.spectrum.fineness": (1.0, SPECTRA | {"ensemble"}),
     "contact_law.normal": ("harmonic", set(STAGES)),
     "grid.seeds": (8, set()),
@@ -53,6 +54,6 @@ def test_settings_are_a_piece_of_a_configuration(stage):
     settings = json.loads(scene_with("protocol.rattlers.threshold", 1).settings(stage))
     grid = GRID | {"observables": settings.pop("observables", {})}
     scene = scene_of({**settings, "study": "small", "grids": [grid]})
-    parts = asdict(scene.protocol)
+    parts = json.loads(json.dumps(asdict(scene.protocol)))
     for name, part in settings["protocol"].items():
         assert parts[name] == part

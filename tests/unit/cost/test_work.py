@@ -6,6 +6,7 @@ import pytest
 
 from grainmodes.cost.work import work
 from grainmodes.parameters.protocol import Protocol
+from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import Shear
 from priced import TABLE
@@ -51,3 +52,16 @@ def test_a_shear_is_priced_by_its_strain():
     for strain, step in ((0.5, 1e-4), (0.2, 1e-3)):
         protocol = Protocol(shear=Shear(strain, step))
         assert work("shear", "none", 128, 1.0, protocol, TABLE) == {"shear": strain / 1e-4}
+
+
+@pytest.mark.parametrize(
+    ("choices", "runs"),
+    [
+        (Release(), 6),
+        (Release(duration=40.0, dampings=(1.0,)), 1),
+        (Release(time_step=0.05, dampings=()), 2),
+    ],
+)
+def test_a_release_is_priced_by_its_runs_and_their_steps(choices, runs):
+    found = work("release", "none", 500, 1.0, Protocol(release=choices), TABLE)
+    assert found == {"release": pytest.approx(runs)}

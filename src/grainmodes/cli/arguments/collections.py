@@ -10,7 +10,7 @@ from grainmodes.parameters.figures import FIGURES
 
 def define(commands) -> None:
     """Add these commands."""
-    for add in (_gather, _ensemble, _figure, _claims):
+    for add in (_gather, _ensemble, _figure, _film, _claims):
         add(commands)
 
 
@@ -43,18 +43,30 @@ def _figure(commands) -> None:
         "data",
         type=Path,
         nargs="+",
-        help="file of `grainmodes ensemble`, or files of `grainmodes fields` or `close-up`",
+        help="file of `grainmodes ensemble`, or files of `fields`, `close-up` or `release`",
     )
-    command.add_argument("--n", type=int, help="the number of grains to show")
-    command.add_argument("--phi", type=float, help="the area fraction to show")
-    command.add_argument("--kt", type=float, nargs="+", help="the tangential stiffnesses to show")
-    command.add_argument("--seed", type=int, help="the sample to show")
+    _shown(command)
     command.add_argument("--fineness", type=float, help="factor on the numbers of linear bins")
     options.output(command, "path without suffix; .png, .pdf and .csv are written")
 
 
+def _film(commands) -> None:
+    sentence = "Draw the spirals of a released sample as a film (GIF)."
+    command = options.command(commands, "film", "collections:film", sentence)
+    command.add_argument("data", type=Path, nargs="+", help="files of `grainmodes release`")
+    _shown(command)
+    options.output(command)
+
+
+def _shown(command) -> None:
+    command.add_argument("--n", type=int, help="the number of grains to show")
+    command.add_argument("--phi", type=float, help="the area fraction to show")
+    command.add_argument("--kt", type=float, nargs="+", help="the tangential stiffnesses to show")
+    command.add_argument("--seed", type=int, help="the sample to show")
+
+
 def _claims(commands) -> None:
-    sentence = "Check the claims of papers A and B on an ensemble."
+    sentence = "Check the claims of the papers on an ensemble."
     command = options.command(commands, "claims", "collections:claims", sentence)
     command.add_argument("ensemble", type=Path, help="file of `grainmodes ensemble`")
     command.add_argument(

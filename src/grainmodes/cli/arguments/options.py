@@ -58,6 +58,17 @@ def settings(command) -> None:
     )
 
 
+def keep_every(command) -> None:
+    """`--keep-every`: how often long samples are kept."""
+    command.add_argument(
+        "--keep-every",
+        type=seconds,
+        default=120.0,
+        metavar="SECONDS",
+        help="how often to keep how far a sample has come, beside the output file",
+    )
+
+
 def output(command, meaning: str = "file to write") -> None:
     """`--output`, required."""
     command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=meaning)

@@ -22,6 +22,7 @@ def define(commands) -> None:
         _probes,
         _shear,
         _close_up,
+        _release,
         _point,
     ):
         add(commands)
@@ -93,19 +94,22 @@ def _probes(commands) -> None:
 
 def _shear(commands) -> None:
     sentence = "Quasistatic shear of packings, with every event between two states."
-    command = _response(commands, "shear", "stages:shear", sentence)
-    command.add_argument(
-        "--keep-every",
-        type=options.seconds,
-        default=120.0,
-        metavar="SECONDS",
-        help="how often to keep how far a sample has come, beside the output file",
-    )
+    options.keep_every(_response(commands, "shear", "stages:shear", sentence))
 
 
 def _close_up(commands) -> None:
     sentence = "The first event in the shear of the first of some packings, looked at closely."
     _response(commands, "close-up", "stages:close_up", sentence)
+
+
+def _release(commands) -> None:
+    sentence = "Dynamics from the unstable states of sheared samples, without damping and with."
+    command = options.command(commands, "release", "stages:release", sentence)
+    command.add_argument("pairs", type=Path, help="file of `grainmodes pairs`")
+    options.kt(command)
+    options.settings(command)
+    options.keep_every(command)
+    options.output(command)
 
 
 def _response(commands, name: str, run: str, sentence: str) -> argparse.ArgumentParser:

@@ -1,0 +1,25 @@
+"""How an unstable state is let go."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Release:
+    """Newtonian dynamics from a state with a complex pair λ' = (ω_r + iω_i)² (C, Sec. VI and VII).
+
+    It runs for `duration` / ω_i, looked at in `records` even intervals and in between where it
+    matters. `kick` is the root mean square velocity along ü^m at the start, in d/t_0; 0 leaves the
+    state to round-off. Each of `dampings`, η_0 in units of ω_i, is a run more beside the undamped
+    one. `spectra` times of that one the eigenvalues of M⁻¹J are found. A state whose `duration`
+    takes more than `max_steps` is refused.
+    """
+
+    time_step: float = 0.1
+    duration: float = 80.0
+    kick: float = 1e-11
+    dampings: tuple[float, ...] = (0.1, 1.0, 3.0, 10.0, 100.0)
+    records: int = 2000
+    spectra: int = 30
+    max_steps: int = 50_000_000

@@ -1,0 +1,41 @@
+"""Changes of `claimed_release.ensemble()`, each of which one claim of C4 to C7 does not survive."""
+
+
+def changed(name: str, factor: float, added: float = 0.0):
+    """Multiply and shift one variable."""
+
+    def doctor(ensemble):
+        ensemble[f"release_{name}"] = factor * ensemble[f"release_{name}"] + added
+
+    return doctor
+
+
+def grows_though_damped(ensemble):
+    """The run under three times ω_i comes as far as the undamped one."""
+    largest = ensemble["release_largest_square"]
+    ensemble["release_largest_square"] = largest.where(largest["damping"] != 3, 0.1)
+
+
+def suppressed_by_little(ensemble):
+    """The run under a tenth of ω_i does not grow."""
+    largest = ensemble["release_largest_square"]
+    ensemble["release_largest_square"] = largest.where(largest["damping"] != 1, 1e-22)
+
+
+DOCTORED = [
+    ("C4", changed("spiral_misfit", 1e3)),
+    ("C4", changed("spiral_overlap", 0.9)),
+    ("C4", changed("spiral_opening", 0.1)),
+    ("C5", changed("displacement_rate", 1.03)),
+    ("C5", changed("rotation_rate", 0.97)),
+    ("C5", changed("displacement_frequency", 1.03)),
+    ("C5", changed("rotation_frequency", 0.97)),
+    ("C5", changed("change_square", 1e3)),
+    ("C6", changed("second_time", 1.0, -1.6e5)),
+    ("C6", changed("after_pressure", 0.5)),
+    ("C6", changed("after_stress_xy", 100.0)),
+    ("C6", changed("after_contact_number", 1.0, 1.0)),
+    ("C7", grows_though_damped),
+    ("C7", suppressed_by_little),
+]
+"""The claim and what it falls by, each part of it at least once."""

@@ -1,0 +1,139 @@
+"""Figures of released states: the plotted numbers against the block, and what is drawn."""
+
+import matplotlib.image
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from PIL import Image
+
+from grainmodes.cli import main
+from grainmodes.dataset.files import Block, BlockError, write_block
+from grainmodes.figures import (
+    draw,
+    film,
+    release_contacts,
+    release_damping,
+    release_fate,
+    release_growth,
+    release_pressure,
+    release_spectrum,
+    release_spirals,
+)
+from grainmodes.figures.selection import Options
+from grainmodes.parameters.figures import FIGURES
+from grainmodes.parameters.release import Release
+from grainmodes.release_blocks import release_block
+from pictures import numbers_of
+from released import pairs_block, state
+
+OF_RELEASES = [name for name, figure in FIGURES.items() if figure.source == "release"]
+CHOICES = Release(duration=22.0, dampings=(1.0, 4.0), records=300, spectra=4)
+
+
+@pytest.fixture(scope="module")
+def release() -> Block:
+    return release_block(pairs_block(), state()[1], CHOICES)
+
+
+@pytest.fixture(scope="module")
+def path(release, tmp_path_factory):
+    path = tmp_path_factory.mktemp("release") / "release.nc"
+    write_block(path, release)
+    return path
+
+
+@pytest.mark.parametrize("name", OF_RELEASES)
+def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, path, tmp_path):
+    draw(name, [path], tmp_path / name, {})
+    assert len(numbers_of(tmp_path, name))
+    picture = matplotlib.image.imread(tmp_path / f"{name}.png")[..., :3]
+    assert (picture.min(axis=2) < 0.5).mean() > 5e-3
+
+
+@pytest.mark.parametrize("name", OF_RELEASES)
+def test_a_study_without_an_unstable_state_still_has_its_figures(name, tmp_path):
+    pairs = pairs_block()
+    pairs.variables["unstable_found"][:] = 0
+    write_block(tmp_path / "none.nc", release_block(pairs, state()[1], CHOICES))
+    draw(name, [tmp_path / "none.nc"], tmp_path / name, {})
+    assert (tmp_path / f"{name}.pdf").exists()
+
+
+def test_growth_shows_records_and_the_laws_through_them(release):
+    rows, values = release_growth.table([release], Options()), release.variables
+    known = np.isfinite(values["release_time"][0, 0])
+    assert_array_equal(rows["m"], values["release_mean_square_displacement"][0, 0, known])
+    linear = rows[(rows["m"] > 1e-18) & (rows["m"] < 1e-11)]
+    for column in ("m", "a"):
+        assert_allclose(linear[f"{column}_law"], linear[column], rtol=0.02)
+    assert abs(rows["growth_error"].iloc[0]) < 0.01
+
+
+def test_spirals_end_where_the_film_does(release):
+    rows, values = release_spirals.table([release], Options()), release.variables
+    frames, n = values["release_film"].shape[1:3]
+    assert len(rows) == frames * n
+    last = rows.tail(n)
+    assert_allclose(last[["dx", "dy"]], values["release_film"][0, -1, :, :2])
+    assert_allclose(last[["x", "y"]], values["position"][0])
+    paths = release_spirals.trajectories(rows)
+    moved = paths[-1] - values["position"][0]
+    assert_allclose(moved, rows["factor"].iloc[0] * last[["dx", "dy"]].to_numpy(), atol=1e-12)
+
+
+def test_the_fate_has_every_sample_and_the_spectrum_every_pair(release):
+    assert release_fate.table([release], Options())["seed"].unique().tolist() == [0]
+    rows, values = release_spectrum.table([release], Options()), release.variables
+    pairs = values["release_spectrum_pairs"][0]
+    assert len(rows) == pairs.sum()
+    assert rows.drop_duplicates("time")["pairs"].tolist() == pairs.tolist()
+
+
+def test_shares_of_grains_and_mean_pressures_are_those_of_the_grains(release):
+    values = release.variables
+    grains = release_contacts.table([release], Options()).query("kind == 'grains'")
+    for side in ("before", "after"):
+        z = values[f"release_contacts_{side}"][0]
+        assert_allclose((grains["z"] * grains[side]).sum(), z.mean())
+        rows = release_pressure.table([release], Options()).query(f"side == '{side}'")
+        of_z = rows[rows["kind"] == "grains"]
+        total = values[f"release_grain_pressure_{side}"][0].sum()
+        assert_allclose((of_z["pressure"] * of_z["count"]).sum(), total)
+        bins = rows[rows["kind"] == "contacts"]
+        width = np.diff(bins["binary"]).mean()
+        assert_allclose((bins["density"] * width).sum(), 1.0)
+        assert (
+            bins["count"].sum() == np.isfinite(values[f"release_binary_pressure_{side}"][0]).sum()
+        )
+
+
+def test_damping_shows_every_run_with_its_rate(release):
+    rows = release_damping.table([release], Options()).drop_duplicates("damping")
+    assert_allclose(rows["damping"] / rows["rate"], [0.0, 1.0, 4.0])
+    assert_allclose(rows["rate_damped"] / rows["rate"], [1.0, 0.5, -1.0], atol=1e-3)
+
+
+def test_what_is_not_there_is_refused(release):
+    with pytest.raises(ValueError, match="seed = 7"):
+        release_growth.table([release], Options(seed=7))
+    with pytest.raises(ValueError, match="n = 51"):
+        release_fate.table([release], Options(n=51))
+
+
+def test_two_files_of_the_same_samples_are_refused(path, tmp_path):
+    with pytest.raises(BlockError, match="also stand in"):
+        draw("release_fate", [path, path], tmp_path / "x", {})
+
+
+def test_the_film_moves_and_is_written_by_a_command(release, tmp_path, monkeypatch):
+    monkeypatch.setattr(film, "RESOLUTION", 40)
+    names = ("release_film", "release_frame_time")
+    short = {name: release.variables[name][:, :12] for name in names}
+    write_block(tmp_path / "x.nc", Block(release.variables | short, release.attributes))
+    assert main(["film", str(tmp_path / "x.nc"), "-o", str(tmp_path / "spirals.gif")]) == 0
+    with Image.open(tmp_path / "spirals.gif") as movie:
+        assert movie.n_frames == 11
+        first = np.asarray(movie.convert("L"), float)
+        movie.seek(10)
+        assert np.abs(np.asarray(movie.convert("L"), float) - first).max() > 50
+    assert {entry.name for entry in tmp_path.iterdir()} == {"spirals.gif", "x.nc"}
