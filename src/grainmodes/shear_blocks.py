@@ -128,7 +128,7 @@ def _events(events: list[Event], rule: Interaction) -> dict[str, object]:
         f"event_{name}": [getattr(e, name) for e in events] for name in ("kind", "opened", "closed")
     }
     row["event_displacement"] = np.stack([_three(e.displacement) for e in events])
-    row["event_reopened"] = [reopened(e.before, e.after) for e in events]
+    row["event_reopened"] = [reopened(e.before, e.after, rule) for e in events]
     for number, side in enumerate(("before", "after")):
         balances = [Balance.of(getattr(e, side), rule) for e in events]
         row |= _side(side, balances, [e.points[number] for e in events])

@@ -10,6 +10,7 @@ from grainmodes.configuration.grids import Grid, lacking
 from grainmodes.parameters.fields import MOST_FOR_ALL_MODES
 from grainmodes.parameters.figures import FIGURES
 from grainmodes.parameters.grid import CHECKPOINT_SPACING, LOWEST_CHECKPOINT
+from grainmodes.parameters.law import COULOMB_LAWS, ELASTIC_LAWS
 
 
 def conflicts(config: dict) -> Iterator[str]:
@@ -34,12 +35,12 @@ def _damped(config: dict) -> Iterator[str]:
 def _coulomb(config: dict) -> Iterator[str]:
     law = config["contact_law"]
     name, mu = law["tangential"], law["friction_coefficient"]
-    if name == "elastic" and mu is not None:
+    if name in ELASTIC_LAWS and mu is not None:
         yield (
-            f"contact_law.friction_coefficient = {mu}: the tangential law 'elastic' has none, "
-            "allowed are smoothed_coulomb and sharp_coulomb with it"
+            f"contact_law.friction_coefficient = {mu}: the tangential law {name!r} has none, "
+            f"allowed with it are {', '.join(COULOMB_LAWS)}"
         )
-    if name != "elastic" and mu is None:
+    if name in COULOMB_LAWS and mu is None:
         yield (
             f"contact_law.friction_coefficient is missing: the tangential law {name!r} needs a "
             "number above 0"

@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.kernels.compiler import kernel
-from grainmodes.kernels.laws import admissible, normal_response, tangential_response
+from grainmodes.kernels.laws import normal_response, tangential_response
 
 
 @kernel
@@ -92,14 +92,3 @@ def normal_slope(normal, overlap):
     for c in range(overlap.shape[0]):
         slope[c] = normal_response(normal, overlap[c])[1]
     return slope
-
-
-@kernel
-def kept_displacement(interaction, overlap, displacement):
-    """s of every contact after the law has let it slip; (C,)."""
-    kept = np.empty(overlap.shape[0])
-    for c in range(overlap.shape[0]):
-        kept[c] = admissible(
-            interaction.tangential, interaction.normal, overlap[c], displacement[c]
-        )
-    return kept

@@ -2,7 +2,7 @@
 
 Quadratic near a balance, lost far from one, so every step must lower max|F̃|; where none does, the
 iteration stops unconverged and the caller goes back to dynamics. Contacts are found anew at every
-iterate. A frictional step carries the tangential springs along,
+iterate. A frictional step carries the tangential springs along (`springs`),
 
     s → s + t·δr + δℓ     t at the middle of the step: error O(δ³)
 
@@ -20,8 +20,8 @@ import numpy as np
 
 from grainmodes.forces import is_frictionless, largest, net_force
 from grainmodes.jacobian import jacobian
-from grainmodes.kernels.contacts import kept_displacement
 from grainmodes.kernels.laws import Interaction
+from grainmodes.kernels.springs import advanced_displacement, kept_displacement
 from grainmodes.linear import FloppyError, PinnedFactor
 from grainmodes.packing import Contacts, History, Packing, find_contacts
 from grainmodes.relaxation.result import Relaxed
@@ -79,7 +79,7 @@ def moved_by(
     if is_frictionless(interaction):
         return moved
     rotation = np.zeros(packing.n) if packing.rotation is None else packing.rotation
-    s = contacts.displacement + _sliding(contacts, u)
+    s = _stretched(contacts, interaction, u)
     return replace(moved, rotation=rotation + u[:, 2], history=History(contacts.i, contacts.j, s))
 
 
@@ -93,9 +93,15 @@ def slipped(packing: Packing, interaction: Interaction) -> tuple[Packing, Contac
     return replace(packing, history=history), replace(contacts, tangential_displacement=s)
 
 
-def _sliding(contacts: Contacts, u: np.ndarray) -> np.ndarray:
-    """ds = t·δr + δℓ of every contact, with t at the middle of the motion; (C,)."""
+def _stretched(contacts: Contacts, interaction: Interaction, u: np.ndarray) -> np.ndarray:
+    """What the springs remember after the motion u (N, 3); (C,).
+
+    ds = t·δr + δℓ, with t and ξ at the middle of the motion.
+    """
     step = u[contacts.i, :2] - u[contacts.j, :2]
     middle = contacts.normal * contacts.distance[:, None] + 0.5 * step
+    length = np.hypot(middle[:, 0], middle[:, 1])
     cross = middle[:, 1] * step[:, 0] - middle[:, 0] * step[:, 1]
-    return cross / np.hypot(middle[:, 0], middle[:, 1]) + u[contacts.i, 2] + u[contacts.j, 2]
+    slide = cross / length + u[contacts.i, 2] + u[contacts.j, 2]
+    overlap = contacts.overlap + contacts.distance - length
+    return advanced_displacement(interaction, overlap, contacts.displacement, slide)
