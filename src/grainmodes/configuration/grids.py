@@ -25,6 +25,7 @@ class Observables:
     shear: bool = False
     unbracketed: bool = False
     close_up: bool = False
+    variants: bool = False
 
     @property
     def words(self) -> set[str]:
@@ -39,6 +40,7 @@ class Observables:
             "shear": self.shear,
             "unbracketed": self.shear and self.unbracketed,
             "close_up": self.close_up,
+            "variants": self.variants,
         }
         return {word for word, here in offered.items() if here}
 
@@ -87,6 +89,7 @@ class Grid:
             "spectrum_hessian": asked.hessian and kt > 0.0,
             "probes": asked.probes and kt > 0.0,
             "shear": asked.shear,
+            "variants": asked.variants and kt > 0.0,
         }
         return [stage for stage, here in wanted.items() if here]
 

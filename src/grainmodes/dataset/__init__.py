@@ -13,12 +13,13 @@ from grainmodes.dataset import (
     rigidity,
     shear,
     spectrum,
+    variants,
 )
 from grainmodes.dataset.variable import Variable
 
 VARIABLES: dict[str, Variable] = {
     name: row
-    for theme in (packing, rigidity, spectrum, probes, fields, shear, close_up)
+    for theme in (packing, rigidity, spectrum, probes, fields, shear, close_up, variants)
     for name, row in theme.NAMES.items()
 }
 """Every name that a block or an ensemble may hold."""

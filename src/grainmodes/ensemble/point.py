@@ -27,10 +27,14 @@ STAGES = (
     "spectrum_hessian",
     "probes",
     "shear",
+    "variants",
 )
 """Values of the attribute `stage`, in the order in which names win."""
 
-SERIES = ("mode", "edge", "bin", "probe", "state", "unbracketed_state", "event", "change")
+SERIES = (
+    *("mode", "edge", "bin", "probe", "state", "unbracketed_state", "event", "change"),
+    "variant_state",
+)
 
 PER_SAMPLE = (("seed",), *(("seed", name) for name in SERIES))
 """Dimensions of the variables that a point keeps."""
