@@ -22,11 +22,11 @@ from grainmodes.relaxation.dynamics import Motion, move
 from grainmodes.relaxation.newton import moved_by, slipped
 from grainmodes.stability import INERTIA
 
-SIZE = 1e-12
-"""a in d: 1e4 times what a balance of max|F̃| = 1e-14 leaves over in a stiff mode."""
+SIZE = 1e-11
+"""a in d: 1e3 times what a balance of max|F̃| = 1e-14 leaves over in other modes."""
 
 E_FOLDS = 12.0
-"""ω_i t at the end: a grows to 2e-7 d, before contacts open or close."""
+"""ω_i t at the end: a grows to 2e-6 d, before most contacts open or close."""
 
 SHORT = 0.1
 """Time step in units of 1/ω_max: ω is then wrong by (ω Δt)²/24, 4e-4 at most."""
