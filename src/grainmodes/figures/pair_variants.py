@@ -91,12 +91,12 @@ def _released(law: str, strain: np.ndarray, of: dict[str, np.ndarray]) -> pd.Dat
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Pairs above, growth below, a colour and a symbol per law."""
+    """Pairs above, growth below, a colour and a symbol per law; open where a force is kept."""
     figure.set_size_inches(3.5, 5.0)
     upper, lower = figure.subplots(2, 1)
     for law, colour, marker in appearance.series(list(WORDS)):
         of = table[table["tangential"] == law]
-        _draw_pairs(upper, of[of["kind"] == "pairs"], colour, marker, WORDS[law])
+        _draw_pairs(upper, of[of["kind"] == "pairs"], law, colour, marker)
         release = of[of["kind"] == "release"]
         ratio = (release["growth"] / release["rate"]).clip(*SPAN)
         lower.plot(release["rate"], ratio, marker, color=colour, **appearance.OPEN)
@@ -108,12 +108,14 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     for index, (axes, title) in enumerate(((upper, "pairs"), (lower, "released states"))):
         appearance.name_panel(axes, index, title)
     rows = table[table["kind"] == "pairs"]
-    appearance.write_caption(figure, rows, ("n", "phi", "kt"), f"{rows['law'].iloc[0]}; {NOTE}")
+    note = f"{rows['law'].iloc[0]} grains; {NOTE}"
+    appearance.write_caption(figure, rows, ("n", "phi", "kt"), note)
 
 
-def _draw_pairs(axes: Axes, of: pd.DataFrame, colour, marker: str, label: str) -> None:
+def _draw_pairs(axes: Axes, of: pd.DataFrame, law: str, colour, marker: str) -> None:
     style = {"color": colour, "markersize": 2.5, "linewidth": 0.7, "elinewidth": 0.5}
-    axes.errorbar(
-        of["strain"], of["pairs"], of["standard_error"], marker=marker, label=label, **style
-    )
+    if law.endswith("_force"):
+        style |= {"mfc": "none", "mew": 0.6, "markersize": 5.0}
+    bars = of["standard_error"]
+    axes.errorbar(of["strain"], of["pairs"], bars, marker=marker, label=WORDS[law], **style)
     axes.plot(of["strain"], of["pairs_sticking"], ":", color=colour, linewidth=0.7)

@@ -8,11 +8,12 @@ import pytest
 import claimed
 import claimed_shear
 from doctored_shear import DOCTORED, SECOND
-from grainmodes.claims import CLAIMS, check, paper_b
+from grainmodes.claims import check, paper_a, paper_b
 from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED, NOT_RESOLVED
 
 NAMES = [f"B{number}" for number in range(1, 11)]
 NEVER = {"B5", "B7"}
+BOTH = (*paper_a.CLAIMS, *paper_b.CLAIMS)
 """Claims on what no ensemble holds."""
 
 NEEDED = {
@@ -32,7 +33,7 @@ def verdicts(ensemble, claims=paper_b.CLAIMS):
 
 
 def test_both_papers_stand_in_one_table():
-    found = verdicts(claimed_shear.ensemble(), CLAIMS)
+    found = verdicts(claimed_shear.ensemble(), BOTH)
     assert list(found) == [*(f"A{number}" for number in range(1, 20)), *NAMES]
     assert {name for name, v in found.items() if v.verdict == NOT_ASKED} == NEVER
     assert {v.verdict for name, v in found.items() if name not in NEVER} == {HOLDS}
@@ -42,7 +43,7 @@ def test_both_papers_stand_in_one_table():
 def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
     ensemble = claimed_shear.ensemble()
     doctor(ensemble)
-    found = verdicts(ensemble, CLAIMS)
+    found = verdicts(ensemble, BOTH)
     fallen = {n: v.verdict for n, v in found.items() if v.verdict not in (HOLDS, NOT_ASKED)}
     assert fallen == {name: CONTRADICTED}
 
