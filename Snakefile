@@ -6,8 +6,8 @@
 #   snakemake -j1 results/default/rigidity/n~256/phi~0.873/kt~3e-05/seeds~0003-0003.nc
 #   snakemake -j1 benchmarks                            a table of speeds
 #
-# trajectories -> packings -> {rigidity, step_strain, spectra, probes} -> points -> ensemble
-#                        \-> fields, close_up -> figures         ensemble -> figures, claims
+# trajectories -> packings -> {rigidity, step_strain, spectra, probes, shear, variants} -> points
+#                        \-> fields, close_up -> figures    points -> ensemble -> figures, claims
 #                         pairs -> release -> figures, film
 
 

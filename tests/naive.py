@@ -25,7 +25,7 @@ ON_J = np.array([-1.0, -1.0, 1.0])
 
 
 class Pair(NamedTuple):
-    """A touching pair: r⃗ = r⃗_i − r⃗_j of the touching image, (d_i + d_j)/2 and s."""
+    """A touching pair: r⃗ = r⃗_i − r⃗_j of the touching image, (d_i + d_j)/2, and s or h."""
 
     i: int
     j: int
@@ -73,13 +73,30 @@ def tangential_stiffness(law: ContactLaw, overlap):
     return law.kt * overlap**0.5 if law.normal == "hertz" else law.kt
 
 
+def remembers_force(law: ContactLaw) -> bool:
+    """Whether the spring keeps a force h, f_T = −h, instead of a displacement s."""
+    return law.tangential.endswith("_force")
+
+
+def remembered(law: ContactLaw, overlap, slip):
+    """What the spring keeps that was stretched to s at this overlap: s, or h = k s."""
+    return tangential_stiffness(law, overlap) * slip if remembers_force(law) else slip
+
+
+def threshold(law: ContactLaw, overlap):
+    """What the spring of a Coulomb law keeps when it begins to slip: s* = μ ξ/k_T, or μ f_N."""
+    if remembers_force(law):
+        return law.friction_coefficient * normal_force(law, overlap)
+    return law.friction_coefficient / law.kt * overlap
+
+
 def tangential_force(law: ContactLaw, overlap, slip):
-    """f_T of the elastic, the smoothed Coulomb and the sharp Coulomb spring."""
-    elastic = -tangential_stiffness(law, overlap) * slip
-    if law.kt == 0.0 or law.tangential == "elastic":
+    """f_T of a spring that keeps s or h: elastic, smoothed Coulomb, sharp Coulomb."""
+    elastic = -slip if remembers_force(law) else -tangential_stiffness(law, overlap) * slip
+    if law.kt == 0.0 or law.friction_coefficient is None:
         return elastic
     sign = 1.0 if np.real(slip) > 0 else -1.0
-    tau = sign * slip / (law.friction_coefficient / law.kt * overlap)
+    tau = sign * slip / threshold(law, overlap)
     if np.real(tau) >= 1.0:
         return -law.friction_coefficient * normal_force(law, overlap) * sign
     return elastic * (1 + tau - tau**2) if law.tangential == "smoothed_coulomb" else elastic
@@ -94,11 +111,15 @@ def pair_force(law: ContactLaw, pair: Pair) -> np.ndarray:
     return np.append(along + f_t * tangent(pair.branch), f_t)
 
 
-def moved(pair: Pair, step) -> Pair:
-    """The pair after a relative motion (δr⃗, δℓ): s follows, with t at the middle of the step."""
+def moved(law: ContactLaw, pair: Pair, step) -> Pair:
+    """The pair after a relative motion (δr⃗, δℓ): its spring follows, with t and ξ at the middle."""
     drift, spin = step[:2], step[2]
-    slide = tangent(pair.branch + drift / 2) @ drift
-    return pair._replace(branch=pair.branch + drift, slip=pair.slip + slide + spin)
+    middle = pair.branch + drift / 2
+    overlap = pair.reach - length(middle)
+    stretch = remembered(
+        law, overlap if np.real(overlap) > 0 else 0.0, tangent(middle) @ drift + spin
+    )
+    return pair._replace(branch=pair.branch + drift, slip=pair.slip + stretch)
 
 
 def jumped(pair: Pair, step) -> Pair:
@@ -106,9 +127,9 @@ def jumped(pair: Pair, step) -> Pair:
     return pair._replace(branch=pair.branch + step)
 
 
-def all_moved(pairs: list[Pair], u) -> list[Pair]:
+def all_moved(law: ContactLaw, pairs: list[Pair], u) -> list[Pair]:
     """Every pair after the grains moved by u (N, 3)."""
-    return [moved(p, u[p.i] + ON_J * u[p.j]) for p in pairs]
+    return [moved(law, p, u[p.i] + ON_J * u[p.j]) for p in pairs]
 
 
 def net_force(law: ContactLaw, pairs: list[Pair], n: int) -> np.ndarray:
@@ -145,14 +166,14 @@ def difference(law, pairs, n, grain, axis, h) -> np.ndarray:
     """[F̃(q + h) − F̃(q − h)] / 2h for one coordinate of one grain."""
     u = np.zeros((n, 3))
     u[grain, axis] = h
-    ahead, behind = (net_force(law, all_moved(pairs, way * u), n) for way in (1, -1))
+    ahead, behind = (net_force(law, all_moved(law, pairs, way * u), n) for way in (1, -1))
     return (ahead - behind) / (2 * h)
 
 
 def contact_stiffness(law: ContactLaw, pair: Pair) -> np.ndarray:
     """∂(f_x, f_y, f_T)/∂(r⃗, ℓ) of a contact by complex steps, (3, 3)."""
     steps = 1j * COMPLEX_STEP * np.eye(3)
-    return np.array([pair_force(law, moved(pair, e)).imag / COMPLEX_STEP for e in steps]).T
+    return np.array([pair_force(law, moved(law, pair, e)).imag / COMPLEX_STEP for e in steps]).T
 
 
 def jacobian(law: ContactLaw, pairs: list[Pair], n: int) -> np.ndarray:
@@ -183,7 +204,8 @@ def effective_energy(law: ContactLaw, pairs: list[Pair], u, printed: bool, turn:
 def slopes(law: ContactLaw, pair: Pair) -> tuple[float, float]:
     """(∂f_N/∂ξ, −∂f_T/∂s) by complex steps."""
     overlap, h = pair.reach - length(pair.branch), 1j * COMPLEX_STEP
-    f_n, f_t = normal_force(law, overlap + h), tangential_force(law, overlap, pair.slip + h)
+    slip = pair.slip + remembered(law, overlap, h)
+    f_n, f_t = normal_force(law, overlap + h), tangential_force(law, overlap, slip)
     return f_n.imag / COMPLEX_STEP, -f_t.imag / COMPLEX_STEP
 
 
@@ -202,11 +224,12 @@ def effective_hessian(law: ContactLaw, pairs: list[Pair], n: int, printed: bool,
     return matrix
 
 
-def affine_steps(pairs: list[Pair], loaded: bool) -> list[Pair]:
+def affine_steps(law: ContactLaw, pairs: list[Pair], loaded: bool) -> list[Pair]:
     """Every pair a complex step further along the affine shear r⃗ → r⃗ + γ (r_y, 0)."""
-    move = moved if loaded else jumped
-    size = 3 if loaded else 2
-    return [move(p, 1j * COMPLEX_STEP * np.array([p.branch[1], 0, 0])[:size]) for p in pairs]
+    steps = [1j * COMPLEX_STEP * np.array([p.branch[1], 0, 0]) for p in pairs]
+    if loaded:
+        return [moved(law, p, step) for p, step in zip(pairs, steps, strict=True)]
+    return [jumped(p, step[:2]) for p, step in zip(pairs, steps, strict=True)]
 
 
 def mode_sum(matrix: np.ndarray, force: np.ndarray, zero_modes: int) -> np.ndarray:
@@ -220,12 +243,12 @@ def mode_sum(matrix: np.ndarray, force: np.ndarray, zero_modes: int) -> np.ndarr
 
 def moduli(law: ContactLaw, pairs: list[Pair], n: int, box_length: float, loaded: bool):
     """(g_A, g_NA), each (2, 2) as dσ_αβ/dγ, by the sum over the modes of the dense Jacobian."""
-    sheared = affine_steps(pairs, loaded)
+    sheared = affine_steps(law, pairs, loaded)
     rate = net_force(law, sheared, n).imag / COMPLEX_STEP
     rotations = n if law.kt == 0.0 else 0
     u = mode_sum(jacobian(law, pairs, n), rate.ravel(), 2 + rotations).reshape(n, 3)
     affine = stress(law, sheared, box_length).imag / COMPLEX_STEP
-    relaxed = all_moved(sheared, 1j * COMPLEX_STEP * u)
+    relaxed = all_moved(law, sheared, 1j * COMPLEX_STEP * u)
     total = stress(law, relaxed, box_length).imag / COMPLEX_STEP
     return affine, total - affine
 

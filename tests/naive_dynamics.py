@@ -118,10 +118,10 @@ def verlet_step(scene: Scene, now: Moving, dt: float) -> Moving:
 def slipped(law: ContactLaw, pair: naive.Pair, u) -> float:
     """s of a pair that touches after the motion u; it was 0 if the pair did not touch before."""
     step = u[pair.i] + naive.ON_J * u[pair.j]
-    s = naive.moved(pair._replace(branch=pair.branch - step[:2]), step).slip
-    if law.tangential != "sharp_coulomb":
+    s = naive.moved(law, pair._replace(branch=pair.branch - step[:2]), step).slip
+    if not law.tangential.startswith("sharp_coulomb"):
         return s
-    limit = law.friction_coefficient / law.kt * (pair.reach - naive.length(pair.branch))
+    limit = naive.threshold(law, pair.reach - naive.length(pair.branch))
     return float(np.clip(s, -limit, limit))
 
 

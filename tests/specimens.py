@@ -33,14 +33,17 @@ ELASTIC = (
 )
 SHEARED = "smoothed_coulomb_n50_mu10_seed1"
 
+REMEMBERING_DISPLACEMENT = (
+    ("elastic", None),
+    ("smoothed_coulomb", 0.4),
+    ("sharp_coulomb", 0.4),
+)
+REMEMBERING_FORCE = (("elastic_force", None), ("sharp_coulomb_force", 0.4))
 LAWS = [
     ContactLaw(normal, tangential, 0.3, coefficient)
+    for kinds in (REMEMBERING_DISPLACEMENT, REMEMBERING_FORCE)
     for normal in ("hertz", "harmonic")
-    for tangential, coefficient in (
-        ("elastic", None),
-        ("smoothed_coulomb", 0.4),
-        ("sharp_coulomb", 0.4),
-    )
+    for tangential, coefficient in kinds
 ]
 """Every frictional law."""
 
@@ -119,6 +122,13 @@ def with_slip(packing: Packing, draws, slip: float) -> Packing:
     size = len(contacts.i)
     s = slip * contacts.overlap * draws.uniform(0.1, 1.0, size) * draws.choice([-1.0, 1.0], size)
     return replace(packing, history=History(contacts.i, contacts.j, s))
+
+
+def keeping(law: ContactLaw, packing: Packing) -> Packing:
+    """The packing with what the law remembers of its springs: s, or h = k s."""
+    contacts = find_contacts(packing)
+    kept = naive.remembered(law, contacts.overlap, contacts.displacement)
+    return replace(packing, history=History(contacts.i, contacts.j, kept))
 
 
 def pairs_of(packing: Packing, skin: float = 0.0) -> list[naive.Pair]:

@@ -15,10 +15,11 @@ import numpy as np
 from grainmodes.dataset.files import Block, write_block
 from grainmodes.ensemble import gather_point, write_ensemble
 from grainmodes.parameters.grid import format_value
+from grainmodes.parameters.law import TANGENTIAL_LAWS
 
 JAMMING = 0.845
 STAGES = ("packings", "rigidity", "step_strain", "spectrum")
-WHOLE = (*STAGES, "spectrum_rattlers", "spectrum_hessian", "shear")
+WHOLE = (*STAGES, "spectrum_rattlers", "spectrum_hessian", "shear", "variants")
 
 
 def block(stage: str, n: int, phi: float, kt: float, seeds: range, /, **changes) -> Block:
@@ -188,6 +189,24 @@ def _shear(n, phi, kt, size, draws):
     }
 
 
+def _variants(n, phi, kt, size, draws):
+    """A pair every second state, ω_i = 0.01, which grows unless a sharp spring had to slip."""
+    if phi <= JAMMING:
+        return {"variant_count": np.zeros(size, int), "jammed": np.zeros(size, np.int8)}
+    one, pairs = np.ones((size, 1)), np.arange(5) % 2
+    row = {"variant_count": np.full(size, 5), "jammed": np.ones(size, np.int8)}
+    row["variant_strain"] = one * np.arange(1, 6) * 1e-3
+    for law in TANGENTIAL_LAWS:
+        sharp = law.startswith("sharp")
+        of = pairs * (law != "elastic_force")
+        row[f"variant_pairs_slipping_{law}"] = one * of
+        row[f"variant_pairs_sticking_{law}"] = one * of * (not sharp)
+        row[f"variant_slipping_{law}"] = one * of * sharp
+        row[f"variant_rate_{law}"] = 0.01 * one * of
+        row[f"variant_growth_{law}"] = np.where(one * of > 0, 0.0 if sharp else 0.01, np.nan)
+    return row
+
+
 def _in_bin(eigenvalue, edges):
     """Whether a mode lies in a bin: (samples, modes, bins)."""
     squared = edges**2
@@ -204,4 +223,5 @@ _VARIABLES = {
     "spectrum_rattlers": _spectrum_rattlers,
     "spectrum_hessian": _spectrum_hessian,
     "shear": _shear,
+    "variants": _variants,
 }

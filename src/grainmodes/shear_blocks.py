@@ -136,7 +136,7 @@ def _events(events: list[Event], rule: Interaction) -> dict[str, object]:
     row["event_displacement"] = np.stack([_three(e.displacement) for e in events])
     poles = [rotational_poles(e.after, e.displacement) for e in events]
     row["event_quadrupole"], row["event_other_poles"] = zip(*poles, strict=True)
-    row["event_reopened"] = [reopened(e.before, e.after) for e in events]
+    row["event_reopened"] = [reopened(e.before, e.after, rule) for e in events]
     for number, side in enumerate(("before", "after")):
         balances = [Balance.of(getattr(e, side), rule) for e in events]
         row |= _side(side, balances, [e.points[number] for e in events])

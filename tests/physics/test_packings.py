@@ -26,13 +26,19 @@ relaxations = st.sampled_from(["fast", "fire"])
 frictions = st.sampled_from([0.0, 1e-8, 1e-4, 1e-2, 1.0, 2.0, 10.0])
 
 
-def compressed(n: int, phi: float, seed: int, normal="hertz", relaxation="fast") -> Packing:
+def compressed(
+    n: int, phi: float, seed: int, normal="hertz", relaxation="fast", **grains
+) -> Packing:
     """A packing at φ, compressed in coarse steps."""
-    protocol = Compression(relaxation=relaxation, phi_step=1e-2)
+    protocol = Compression(relaxation=relaxation, phi_step=1e-2, **grains)
     law = elastic(normal, 0.0).normal
     relaxed = balanced(placed(n, seed, law, protocol), phi, law, protocol)
     assert relaxed.converged
     return relaxed.packing
+
+
+C_GRAINS = {"large_diameter": 1.4, "masses": "equal"}
+"""Paper C, Sec. IV: diameters 1.4 and 1, every mass 1."""
 
 
 def backbone(packing: Packing) -> Packing:
@@ -60,6 +66,27 @@ def test_every_packing_is_in_balance_at_its_density(n, phi, seed, normal, relaxa
     assert np.abs(force).max() < 2e-14
     law = elastic(normal, 0.0)
     assert largest(net_force(packing, find_contacts(packing), law))[0] < 1.1e-14
+
+
+@few(10)
+@given(n=sizes, phi=dense, seed=seeds, normal=normals)
+def test_grains_of_paper_c(n, phi, seed, normal):
+    packing = compressed(n, phi, seed, normal, **C_GRAINS)
+    assert sorted(packing.diameter) == [1.0] * (n // 2) + [1.4] * (n // 2)
+    assert packing.phi == pytest.approx(phi, rel=1e-12)
+    np.testing.assert_array_equal(packing.mass, 1.0)
+    force = net_force(packing, find_contacts(packing), elastic(normal, 0.0))
+    assert largest(force)[0] < 1.1e-14
+
+
+@pytest.mark.parametrize("relaxation", ["fast", "fire"])
+def test_harmonic_grains_know_no_length(relaxation):
+    """Equal numbers place the same grains, and k_N ξ is the same force in every unit of length."""
+    grains = [C_GRAINS | {"large_diameter": diameter} for diameter in (1.0, 1.4)]
+    of = [compressed(24, 0.9, 3, "harmonic", relaxation, **kind) for kind in grains]
+    one, other = (packing.fraction for packing in of)
+    assert np.abs(other - one).max() * 2.0**-64 < 1e-9
+    assert of[1].box_length == pytest.approx(1.4 * of[0].box_length, rel=1e-12)
 
 
 @few(20)

@@ -34,12 +34,12 @@ def test_only_springs_that_start_anew_have_reopened(walk):
     after, _ = step_to(before.packing.strain + 1e-5, before, CHOICES)
     history, loads = after.packing.history, np.abs(before.packing.history.tangential_displacement)
     assert np.array_equal(history.i, before.packing.history.i)
-    assert reopened(before.packing, after.packing) == 0
+    assert reopened(before.packing, after.packing, interaction(B)) == 0
     for count in (1, 3):
         s = history.tangential_displacement.copy()
         s[np.argsort(loads)[-count:]] = 0.0
         renewed = replace(after.packing, history=replace(history, tangential_displacement=s))
-        assert reopened(before.packing, renewed) == count
+        assert reopened(before.packing, renewed, interaction(B)) == count
 
 
 def test_loaded_springs_cost_the_jacobian_its_symmetry(walk):

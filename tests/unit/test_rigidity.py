@@ -22,6 +22,7 @@ from specimens import (
     SHEARED,
     contacts_and_pairs,
     elastic,
+    keeping,
     law_name,
     reference,
     smoothed_coulomb,
@@ -111,7 +112,7 @@ def test_displacement_solves_the_balance_and_does_not_drift(kt):
     sheared = affine_displacement(contacts, u.shape[1], True)
     pairs = contacts_and_pairs(packing)[1]
     twin_law = ContactLaw("hertz", "elastic", kt)
-    twin = naive.net_force(twin_law, naive.affine_steps(pairs, True), packing.n).imag
+    twin = naive.net_force(twin_law, naive.affine_steps(twin_law, pairs, True), packing.n).imag
     np.testing.assert_allclose(
         rate.reshape(u.shape), -twin[:, : u.shape[1]] / naive.COMPLEX_STEP, atol=1e-11
     )
@@ -175,7 +176,7 @@ def test_a_packing_of_rattlers_is_refused():
 
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
 def test_factor_solves_general_jacobians(law):
-    packing = reference(SHEARED)[1]
+    packing = keeping(law, reference(SHEARED)[1])
     contacts = find_contacts(packing)
     matrix = jacobian(packing, contacts, interaction(law))
     wanted = np.random.default_rng(1).normal(size=(packing.n, 3))

@@ -122,6 +122,21 @@ rule release:
         " --settings {params.settings:q} -o {output}"
 
 
+rule variants:
+    input:
+        packings=f"{STUDY}/packings/{BLOCK}",
+        code=sources("grainmodes.variant_blocks:variants_block"),
+    output:
+        f"{STUDY}/variants/{RESPONSE}",
+    params:
+        settings=scene.settings("variants"),
+    message:
+        f"Tangential laws side by side at {AT}."
+    shell:
+        "grainmodes variants {input.packings} --kt {wildcards.kt}"
+        " --settings {params.settings:q} -o {output}"
+
+
 rule fields:
     input:
         packings=first_packings,

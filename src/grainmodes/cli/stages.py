@@ -157,6 +157,17 @@ def release(arguments: Namespace) -> None:
     keeping.forget()
 
 
+def variants(arguments: Namespace) -> None:
+    """Packings → their complex pairs under every tangential law."""
+    from grainmodes.variant_blocks import variants_block
+
+    scene = _scene(arguments.settings, kt=arguments.kt)
+    law = scene.law_at(arguments.kt)
+    with _opened(arguments.packings, "packings") as packings:
+        block = variants_block(packings, law, scene.protocol.shear)
+    write_block(arguments.output, block)
+
+
 def point(arguments: Namespace) -> None:
     """Everything of one point, without files between."""
     from grainmodes.point import point_block

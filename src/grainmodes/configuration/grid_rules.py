@@ -1,9 +1,9 @@
 """What no schema can say of the grids of a scene.
 
-Box. A pair of grains touches twice if two images of one lie within reach d of the other (d: the
-diameter of a large grain). Images differ by a vector of the lattice of the box, at least L long for
-every shear strain up to 1/2, so L >= 2 d rules it out. Half the grains having diameter d and half
-d/1.4, L^2 = N (pi/8)(1 + 1/1.4^2) d^2 / phi.
+Box. A pair of grains touches twice if two images of one lie within reach d of the other (d: here
+the diameter of a large grain, whatever its length). Images differ by a vector of the lattice of the
+box, at least L long for every shear strain up to 1/2, so L >= 2 d rules it out. Half the grains
+having diameter d and half d/1.4, L^2 = N (pi/8)(1 + 1/1.4^2) d^2 / phi.
 """
 
 from __future__ import annotations

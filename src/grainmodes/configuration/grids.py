@@ -26,6 +26,7 @@ class Observables:
     unbracketed: bool = False
     close_up: bool = False
     release: bool = False
+    variants: bool = False
 
     @property
     def words(self) -> set[str]:
@@ -41,6 +42,7 @@ class Observables:
             "unbracketed": self.shear and self.unbracketed,
             "close_up": self.close_up,
             "release": self.release,
+            "variants": self.variants,
         }
         return {word for word, here in offered.items() if here}
 
@@ -90,6 +92,7 @@ class Grid:
             "probes": asked.probes and kt > 0.0,
             "shear": asked.shear,
             "release": asked.release and kt > 0.0,
+            "variants": asked.variants and kt > 0.0,
         }
         return [stage for stage, here in wanted.items() if here]
 

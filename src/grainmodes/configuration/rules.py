@@ -10,13 +10,15 @@ from grainmodes.configuration.grids import Grid, lacking
 from grainmodes.parameters.fields import MOST_FOR_ALL_MODES
 from grainmodes.parameters.figures import FIGURES
 from grainmodes.parameters.grid import CHECKPOINT_SPACING, LOWEST_CHECKPOINT
+from grainmodes.parameters.law import COULOMB_LAWS, ELASTIC_LAWS
+from grainmodes.parameters.variants import MOST_GRAINS
 
 
 def conflicts(config: dict) -> Iterator[str]:
     """One sentence per conflict in a complete configuration that satisfies the schema."""
     found = list(grid_conflicts(config))
     yield from found
-    for rule in (_coulomb, _damped, _steps, _shear):
+    for rule in (_coulomb, _variants, _damped, _steps, _shear):
         yield from rule(config)
     if not found:
         yield from _figures(config)
@@ -34,16 +36,27 @@ def _damped(config: dict) -> Iterator[str]:
 def _coulomb(config: dict) -> Iterator[str]:
     law = config["contact_law"]
     name, mu = law["tangential"], law["friction_coefficient"]
-    if name == "elastic" and mu is not None:
+    if name in ELASTIC_LAWS and mu is not None:
         yield (
-            f"contact_law.friction_coefficient = {mu}: the tangential law 'elastic' has none, "
-            "allowed are smoothed_coulomb and sharp_coulomb with it"
+            f"contact_law.friction_coefficient = {mu}: the tangential law {name!r} has none, "
+            f"allowed with it are {', '.join(COULOMB_LAWS)}"
         )
-    if name != "elastic" and mu is None:
+    if name in COULOMB_LAWS and mu is None:
         yield (
             f"contact_law.friction_coefficient is missing: the tangential law {name!r} needs a "
             "number above 0"
         )
+
+
+def _variants(config: dict) -> Iterator[str]:
+    asked = [grid for grid in config["grids"] if grid["observables"]["variants"]]
+    if asked and config["contact_law"]["friction_coefficient"] is None:
+        yield (
+            "observables.variants = True: contact_law.friction_coefficient is missing, and with it "
+            f"a tangential law that has one: {', '.join(COULOMB_LAWS)}"
+        )
+    for n in (n for grid in asked for n in grid["n"] if n > MOST_GRAINS):
+        yield f"observables.variants = True: n = {n}, allowed are at most {MOST_GRAINS} grains"
 
 
 def _steps(config: dict) -> Iterator[str]:
@@ -94,6 +107,7 @@ NEEDED = {
     "unbracketed": "observables.unbracketed: true",
     "close_up": "observables.close_up: true",
     "release": "observables.release: true",
+    "variants": "observables.variants: true",
     "friction": "these observables at a kt above 0",
     "frictionless": "these observables at kt = 0",
     "all_modes": f"these observables at an n of at most {MOST_FOR_ALL_MODES}",

@@ -122,6 +122,7 @@ class Scene:
             | {"observables": {"shear": True, "unbracketed": unbracketed}},
             "close_up": _part(law, protocol, "shear"),
             "release": _part(law, protocol, "release"),
+            "variants": _part(law, protocol, "shear"),
             "ensemble": _part(law, protocol, *protocol) | {"study": self.study},
         }
         return json.dumps(parts[stage], sort_keys=True)

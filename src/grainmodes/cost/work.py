@@ -48,8 +48,8 @@ def work(
         return {name: 2 * units for name, units in once.items()}
     if stage.startswith("spectrum"):
         return _spectrum(kind, n, kt, choices, table)
-    if stage == "shear":
-        return {"shear": protocol.shear.strain / USUAL_STEP}
+    if stage in ("shear", "variants"):
+        return {stage: protocol.shear.strain / USUAL_STEP}
     if stage == "release":
         return {"release": _runs(protocol.release)}
     return {stage: 1}

@@ -15,6 +15,7 @@ from grainmodes.dataset import (
     shear,
     spectrum,
     unstable,
+    variants,
 )
 from grainmodes.dataset.variable import Variable
 
@@ -30,6 +31,7 @@ VARIABLES: dict[str, Variable] = {
         close_up,
         unstable,
         release,
+        variants,
     )
     for name, row in theme.NAMES.items()
 }

@@ -28,6 +28,7 @@ STAGES = (
     "probes",
     "shear",
     "release",
+    "variants",
 )
 """Values of the attribute `stage`, in the order in which names win."""
 
@@ -42,6 +43,7 @@ SERIES = (
     "change",
     "bracket",
     "damping",
+    "variant_state",
 )
 
 PER_SAMPLE = (("seed",), *(("seed", name) for name in SERIES))

@@ -35,14 +35,24 @@ def at_point(ensemble, options: Options) -> tuple[dict, dict[int, Curve]]:
     found = points_with_curves(ensemble)
     if not found:
         return {}, {}
+    point = shown(found, options)
+    return {"law": normal_law(ensemble)} | point, curves(ensemble, **point)
+
+
+def shown(points: list[tuple[int, float, float]], options: Options) -> dict[str, float]:
+    """n, phi and kt of the one point that is asked for, else of the largest.
+
+    Raises:
+        ValueError: none of the points has the n, phi or kt asked for, or several kt are.
+    """
     if options.kt is not None and len(options.kt) > 1:
         raise ValueError(f"kt: the figure shows one value, asked for are {len(options.kt)}")
     asked = {"n": options.n, "phi": options.phi, "kt": options.kt and options.kt[0]}
     point = {}
     for axis, name in enumerate(asked):
-        point[name] = largest_or(asked[name], np.unique([p[axis] for p in found]), name)
-        found = [p for p in found if p[axis] == point[name]]
-    return {"law": normal_law(ensemble)} | point, curves(ensemble, **point)
+        point[name] = largest_or(asked[name], np.unique([p[axis] for p in points]), name)
+        points = [p for p in points if p[axis] == point[name]]
+    return point
 
 
 def sample(ensemble, options: Options, columns: dict) -> tuple[Curve | None, pd.DataFrame]:

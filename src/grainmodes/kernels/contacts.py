@@ -12,12 +12,10 @@ B (App. D3); A's (F6), (F12), (F24), (F30) put −∂f_T/∂ξ nᵀ into the tra
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from grainmodes.kernels.compiler import kernel
-from grainmodes.kernels.laws import admissible, normal_response, tangential_response
+from grainmodes.kernels.laws import normal_response, tangential_response
 
 
 @kernel
@@ -94,27 +92,3 @@ def normal_slope(normal, overlap):
     for c in range(overlap.shape[0]):
         slope[c] = normal_response(normal, overlap[c])[1]
     return slope
-
-
-@kernel
-def kept_displacement(interaction, overlap, displacement):
-    """s of every contact after the law has let it slip; (C,)."""
-    kept = np.empty(overlap.shape[0])
-    for c in range(overlap.shape[0]):
-        kept[c] = admissible(
-            interaction.tangential, interaction.normal, overlap[c], displacement[c]
-        )
-    return kept
-
-
-@kernel
-def slides(normal, distance, i, j, u):
-    """ds = t·δr + δℓ of every contact in a motion u (N, 3), with t at the middle of it; (C,)."""
-    slide = np.empty(i.shape[0])
-    for c in range(i.shape[0]):
-        on_i, on_j = u[i[c]], u[j[c]]
-        x, y = on_i[0] - on_j[0], on_i[1] - on_j[1]
-        mx = normal[c, 0] * distance[c] + 0.5 * x
-        my = normal[c, 1] * distance[c] + 0.5 * y
-        slide[c] = (my * x - mx * y) / math.hypot(mx, my) + on_i[2] + on_j[2]
-    return slide

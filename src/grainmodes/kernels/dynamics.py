@@ -4,6 +4,7 @@ Velocity Verlet whose forces see the half-kicked velocity Q̇, A (B7)–(B9):
 
     Q̇ = q̇ + Δt f̃/2,   q → q + Δt Q̇,   f̃ = f̃(q, Q̇),   q̇ → Q̇ + Δt f̃/2
     s → s + t·δr + δℓ  with t at the middle of the step; s = 0 where the pair does not touch
+    h → h + k_T w(ξ) (t·δr + δℓ)  where the law remembers a force, ξ at the middle too
     f = f_N n + f_T t − η (v_rel + t (w_i + w_j)),   scaled torque f_T − η (t·v_rel + w_i + w_j)
 
 with w = dℓ/dt and inertia m/2 of ℓ. Second order in q; first order in q̇ where f depends on q̇.
@@ -12,7 +13,7 @@ Every velocity is that of q = (x, y, ℓ), in d/t_0.
 | symbol    | name        | shape, type            |
 | --------- | ----------- | ---------------------- |
 | q̇         | vx, vy, w   | (N,) float64           |
-| s         | spring      | (P,) float64, per pair |
+| s or h    | spring      | (P,) float64, per pair |
 | η         | damping     | a type of damping.py   |
 """
 
@@ -25,9 +26,10 @@ import numpy as np
 
 from grainmodes.kernels.compiler import kernel
 from grainmodes.kernels.damping import drag_rate, pair_viscosity
-from grainmodes.kernels.laws import admissible, normal_response, tangential_response
+from grainmodes.kernels.laws import normal_response, tangential_response
 from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours, separation
 from grainmodes.kernels.repulsion import BLOCK, pair_scratch
+from grainmodes.kernels.springs import admissible, advanced
 
 
 class Grains(NamedTuple):
@@ -80,13 +82,16 @@ def pair_forces(
         touch = 1.0 if overlap > 0.0 else 0.0
         overlap = max(overlap, TINY)
         mx, my = dx - 0.5 * time_step * ux, dy - 0.5 * time_step * uy
-        slide = (my * ux - mx * uy) / math.sqrt(mx * mx + my * my) + spin
-        s = admissible(
+        middle = math.sqrt(mx * mx + my * my)
+        slide = (my * ux - mx * uy) / middle + spin
+        s = advanced(
             interaction.tangential,
             interaction.normal,
-            overlap,
-            touch * (spring[pair] + time_step * slide),
+            max(reach[pair] - middle, TINY),
+            spring[pair],
+            time_step * slide,
         )
+        s = admissible(interaction.tangential, interaction.normal, overlap, touch * s)
         spring[pair] = s
         f_n, _ = normal_response(interaction.normal, overlap)
         f_t, _, _ = tangential_response(interaction.tangential, interaction.normal, overlap, s)

@@ -4,6 +4,7 @@ tangential force from s = 0 on, at this overlap.
     Hertz      (2/5) k_N ξ^(5/2)          harmonic   k_N ξ²/2
     elastic    k s²/2                     sharp      k s²/2, |s| ≤ s*
     smoothed   k s² (1/2 + τ/3 − τ²/4), τ = |s|/s* ≤ 1;   beyond, μ f_N for every further |s|
+    elastic and sharp force    h²/(2k)
 
 with k = k_T w(ξ). Only without friction, and for harmonic elastic contacts, are the contact forces
 the gradient of this energy.
@@ -18,10 +19,12 @@ import numpy as np
 from grainmodes.kernels.compiler import implements, kernel
 from grainmodes.kernels.laws import (
     Elastic,
+    ElasticForce,
     Frictionless,
     Harmonic,
     Hertz,
     SharpCoulomb,
+    SharpCoulombForce,
     SmoothedCoulomb,
     normal_response,
     tangential_scale,
@@ -63,6 +66,18 @@ def _elastic(tangential, normal, overlap, displacement):
 def _sharp(tangential, normal, overlap, displacement):
     scale, _ = tangential_scale(normal, overlap)
     return 0.5 * tangential.stiffness * scale * displacement * displacement
+
+
+@implements(tangential_energy, ElasticForce)
+def _elastic_force(tangential, normal, overlap, displacement):
+    scale, _ = tangential_scale(normal, overlap)
+    return 0.5 * displacement * displacement / (tangential.stiffness * scale)
+
+
+@implements(tangential_energy, SharpCoulombForce)
+def _sharp_force(tangential, normal, overlap, displacement):
+    scale, _ = tangential_scale(normal, overlap)
+    return 0.5 * displacement * displacement / (tangential.stiffness * scale)
 
 
 @implements(tangential_energy, SmoothedCoulomb)

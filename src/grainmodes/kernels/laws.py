@@ -8,6 +8,7 @@ for the types it meets, so a frictionless scene holds no tangential code at all.
 | ξ_N, δ  overlap           | overlap                |
 | s, ξ_T, t  tangential     | displacement           |
 | f_N, ∂f_N/∂ξ              | normal_response        |
+| h  tangential force kept  | displacement           |
 | f_T, ∂f_T/∂s, ∂f_T/∂ξ     | tangential_response    |
 | k_N, k_T                  | stiffness of each law  |
 | μ                         | friction_coefficient   |
@@ -20,8 +21,13 @@ for the types it meets, so a frictionless scene holds no tangential code at all.
     smoothed   f_T = −k s (1 + τ − τ²), τ = |s|/s*; −μ f_N sign(s) for τ ≥ 1        C (8)
     sharp      f_T = −k s for τ < 1; −μ f_N sign(s) for τ ≥ 1                  C, Sec. VIII
 
-with k the tangential stiffness of the normal law. Every derivative here is tested against central
-differences of the force.
+    elastic force     f_T = −h,  dh = k ds                   `mindlin/force` of LAMMPS
+    sharp force       f_T = −h,  −μ f_N sign(h) for |h| ≥ μ f_N
+
+with k the tangential stiffness of the normal law. The last two remember a force h where the others
+remember s, so that ∂f_T/∂ξ = 0 without slip; on harmonic contacts, where k is constant, they are
+the elastic and the sharp law again. How each remembers: `springs`. Every derivative here is tested
+against central differences of the force.
 """
 
 from __future__ import annotations
@@ -69,6 +75,19 @@ class SharpCoulomb(NamedTuple):
     friction_coefficient: float
 
 
+class ElasticForce(NamedTuple):
+    """Tangential spring that never slips and remembers its force."""
+
+    stiffness: float
+
+
+class SharpCoulombForce(NamedTuple):
+    """Tangential spring that remembers its force, cut at the Coulomb force μ f_N."""
+
+    stiffness: float
+    friction_coefficient: float
+
+
 class Interaction(NamedTuple):
     """A normal and a tangential law."""
 
@@ -92,12 +111,11 @@ def interaction(law: ContactLaw) -> Interaction:
 def _tangential(law: ContactLaw):
     if not law.frictional:
         return Frictionless()
-    if law.tangential == "elastic":
-        return Elastic(float(law.kt))
+    if law.tangential in ELASTIC:
+        return ELASTIC[law.tangential](float(law.kt))
     if law.tangential not in COULOMB:
-        raise ValueError(
-            f"tangential law {law.tangential!r}: allowed are elastic, {', '.join(COULOMB)}"
-        )
+        allowed = ", ".join((*ELASTIC, *COULOMB))
+        raise ValueError(f"tangential law {law.tangential!r}: allowed are {allowed}")
     if law.friction_coefficient is None or not law.friction_coefficient > 0.0:
         raise ValueError(
             f"friction_coefficient = {law.friction_coefficient}: {law.tangential} needs a "
@@ -107,7 +125,12 @@ def _tangential(law: ContactLaw):
 
 
 NORMAL = {"hertz": Hertz, "harmonic": Harmonic}
-COULOMB = {"smoothed_coulomb": SmoothedCoulomb, "sharp_coulomb": SharpCoulomb}
+ELASTIC = {"elastic": Elastic, "elastic_force": ElasticForce}
+COULOMB = {
+    "smoothed_coulomb": SmoothedCoulomb,
+    "sharp_coulomb": SharpCoulomb,
+    "sharp_coulomb_force": SharpCoulombForce,
+}
 
 
 def normal_response(normal, overlap):
@@ -121,12 +144,7 @@ def tangential_scale(normal, overlap):
 
 
 def tangential_response(tangential, normal, overlap, displacement):
-    """(f_T, ∂f_T/∂s, ∂f_T/∂ξ) of a contact."""
-    raise NotImplementedError("called from compiled code only")
-
-
-def admissible(tangential, normal, overlap, displacement):
-    """The displacement that the law lets the spring keep: sharp Coulomb lets the rest slip."""
+    """(f_T, ∂f_T/∂s, ∂f_T/∂ξ) of a contact; `displacement` is what its spring remembers, s or h."""
     raise NotImplementedError("called from compiled code only")
 
 
@@ -189,19 +207,18 @@ def _sharp(tangential, normal, overlap, displacement):
     return -k * scale * s, -k * scale, -k * slope * s
 
 
-@implements(admissible, Elastic)
-def _elastic_keeps(tangential, normal, overlap, displacement):
-    return displacement
-
-
-@implements(admissible, SmoothedCoulomb)
-def _smoothed_keeps(tangential, normal, overlap, displacement):
-    return displacement
-
-
-@implements(admissible, SharpCoulomb)
-def _sharp_keeps(tangential, normal, overlap, displacement):
-    force, _ = normal_response(normal, overlap)
+@implements(tangential_response, ElasticForce)
+def _elastic_force(tangential, normal, overlap, displacement):
     scale, _ = tangential_scale(normal, overlap)
-    limit = tangential.friction_coefficient * force / (tangential.stiffness * scale)
-    return min(max(displacement, -limit), limit)
+    return -displacement, -tangential.stiffness * scale, 0.0
+
+
+@implements(tangential_response, SharpCoulombForce)
+def _sharp_force(tangential, normal, overlap, displacement):
+    force, stiffness = normal_response(normal, overlap)
+    scale, _ = tangential_scale(normal, overlap)
+    mu = tangential.friction_coefficient
+    if abs(displacement) >= mu * force:
+        sign = math.copysign(1.0, displacement)
+        return -mu * force * sign, 0.0, -mu * stiffness * sign
+    return -displacement, -tangential.stiffness * scale, 0.0

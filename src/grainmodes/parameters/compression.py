@@ -11,6 +11,8 @@ RELAXATIONS = ("fast", "fire")
 class Compression:
     """Random placement at φ = `initial_phi`, then steps of `phi_step`, each relaxed (A, App. A).
 
+    Half of the grains have `large_diameter`, the others 1/1.4 of it; `masses` are d_i² ("area": A,
+    B) or all 1 ("equal": C, whose unit of length is the small diameter, so its large one is 1.4).
     `intermediate_balance` is the largest force left after a step, relative to the mean contact
     force (`fast` only: `fire` brings every step to `force_tolerance`, as paper A does).
     """
@@ -21,3 +23,5 @@ class Compression:
     intermediate_balance: float = 1e-3
     force_tolerance: float = 1e-14
     max_iterations: int = 20_000_000
+    large_diameter: float = 1.0
+    masses: str = "area"

@@ -138,6 +138,9 @@ FIGURES = {
     "release_damping": Figure(
         "Release under damping (paper C, Fig. 11)", ("release", "friction"), "release"
     ),
+    "pair_variants": Figure(
+        "Complex pairs under several tangential laws (paper C, Fig. 12(a))", ("variants",)
+    ),
 }
 """Every figure. `rigidity` figures show the simulated step strain as well where a study has it;
 `modes` stands for a spectrum with eigenvectors or band averages, `friction` for a k_T above 0,

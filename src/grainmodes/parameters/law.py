@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 NORMAL_LAWS = ("hertz", "harmonic")
-TANGENTIAL_LAWS = ("elastic", "smoothed_coulomb", "sharp_coulomb")
+ELASTIC_LAWS = ("elastic", "elastic_force")
+COULOMB_LAWS = ("smoothed_coulomb", "sharp_coulomb", "sharp_coulomb_force")
+TANGENTIAL_LAWS = ELASTIC_LAWS + COULOMB_LAWS
 
 
 @dataclass(frozen=True)

@@ -28,8 +28,8 @@ from grainmodes.relaxation.frictionless import (
 )
 from grainmodes.relaxation.result import Relaxed
 
-SMALL_DIAMETER = 1.0 / 1.4
-"""Half of the grains have diameter d, half d/1.4 (A, Sec. II)."""
+SIZE_RATIO = 1.4
+"""Large diameter over small, half of the grains each (A, Sec. II; C, Sec. IV)."""
 
 
 class CompressionError(ArithmeticError):
@@ -57,9 +57,12 @@ def placed(n: int, seed: int, normal, protocol: Compression) -> Trajectory:
     """
     generator = np.random.default_rng(np.random.SeedSequence([n, seed]))
     points = generator.integers(-(2**63), 2**63, size=(2, n), dtype=np.int64)
-    diameter = generator.permutation(np.where(np.arange(n) < n // 2, 1.0, SMALL_DIAMETER))
+    large = protocol.large_diameter
+    sizes = np.where(np.arange(n) < n // 2, large, large / SIZE_RATIO)
+    diameter = generator.permutation(sizes)
     points = points[:, _rows_of_cells(points)]
-    loose = Packing(points, diameter, diameter**2, 1.0).at(protocol.initial_phi)
+    mass = diameter**2 if protocol.masses == "area" else np.ones(n)
+    loose = Packing(points, diameter, mass, 1.0).at(protocol.initial_phi)
     relaxed = relax_loosely(loose, normal, 1e-300, 0.0, protocol.max_iterations)
     if relaxed.max_force > 0.0:
         raise CompressionError(f"random placement of {n} grains kept overlaps")

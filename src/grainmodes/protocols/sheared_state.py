@@ -15,6 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from grainmodes.forces import energy, stress
+from grainmodes.kernels.laws import Interaction
+from grainmodes.kernels.springs import advanced_displacement
 from grainmodes.packing import Packing, find_contacts, nonaffine_motion
 from grainmodes.relaxation.balance import Balance
 from grainmodes.rigidity import AffineStep, Moduli
@@ -143,11 +145,12 @@ def network_changes(before: Balance, after: Balance) -> tuple[int, int]:
     return len(old) - same, len(new) - same
 
 
-def reopened(before: Packing, after: Packing) -> int:
+def reopened(before: Packing, after: Packing, interaction: Interaction) -> int:
     """Contacts of both states that let go of their spring between them: they opened, and closed.
 
     Such a spring starts anew from s = 0 and misses what the motion makes of the old one,
-    s + t·Δr + Δℓ with t at the middle. That is known to the square of the motion.
+    s + w Δs, Δs = t·Δr + Δℓ with t at the middle and w = 1, or k_T w(ξ) where it remembers a force.
+    That is known to the square of the motion.
     """
     if before.history is None or after.history is None:
         return 0
@@ -158,11 +161,12 @@ def reopened(before: Packing, after: Packing) -> int:
     i, j, s, known = contacts.i[both], contacts.j[both], s[both], known[both]
     slip = moved[i] - moved[j]
     along = np.einsum("ca,ca->c", slip[:, :2], contacts.tangent[both])
-    expected = old.tangential_displacement[known] + along + moved[i, 2] + moved[j, 2]
-    missing = np.abs(s - expected)
-    square = (np.abs(moved[i]) + np.abs(moved[j])).sum(axis=1) ** 2
-    lost = np.abs(old.tangential_displacement[known])
-    return int(np.count_nonzero((missing > 0.5 * lost) & (missing > CURVED * square)))
+    nothing, one = np.zeros(len(s)), np.ones(len(s))
+    weight = advanced_displacement(interaction, contacts.overlap[both], nothing, one)
+    had = old.tangential_displacement[known]
+    missing = np.abs(s - had - weight * (along + moved[i, 2] + moved[j, 2]))
+    square = weight * (np.abs(moved[i]) + np.abs(moved[j])).sum(axis=1) ** 2
+    return int(np.count_nonzero((missing > 0.5 * np.abs(had)) & (missing > CURVED * square)))
 
 
 def _place(i: np.ndarray, j: np.ndarray, of_i: np.ndarray, of_j: np.ndarray, n: int) -> np.ndarray:

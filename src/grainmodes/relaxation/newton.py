@@ -2,7 +2,7 @@
 
 Quadratic near a balance, lost far from one, so every step must lower max|F̃|; where none does, the
 iteration stops unconverged and the caller goes back to dynamics. Contacts are found anew at every
-iterate. A frictional step carries the tangential springs along,
+iterate. A frictional step carries the tangential springs along (`springs`),
 
     s → s + t·δr + δℓ     t at the middle of the step: error O(δ³)
 
@@ -20,8 +20,8 @@ import numpy as np
 
 from grainmodes.forces import is_frictionless, largest, net_force
 from grainmodes.jacobian import jacobian
-from grainmodes.kernels.contacts import kept_displacement, slides
 from grainmodes.kernels.laws import Interaction
+from grainmodes.kernels.springs import kept_displacement, stretched
 from grainmodes.linear import FloppyError, PinnedFactor
 from grainmodes.packing import Contacts, History, Packing, find_contacts
 from grainmodes.relaxation.result import Relaxed
@@ -80,7 +80,7 @@ def moved_by(
         return moved
     rotation = np.zeros(packing.n) if packing.rotation is None else packing.rotation
     c = contacts
-    s = c.displacement + slides(c.normal, c.distance, c.i, c.j, u)
+    s = stretched(interaction, c.normal, c.distance, c.overlap, c.displacement, c.i, c.j, u)
     return replace(moved, rotation=rotation + u[:, 2], history=History(contacts.i, contacts.j, s))
 
 

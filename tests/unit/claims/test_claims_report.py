@@ -8,7 +8,11 @@ import claimed
 from grainmodes.claims import check, report
 from grainmodes.cli import main
 
-NAMES = [*(f"A{number}" for number in range(1, 20)), *(f"B{number}" for number in range(1, 11))]
+NAMES = [
+    *(f"A{number}" for number in range(1, 20)),
+    *(f"B{number}" for number in range(1, 11)),
+    *("C4", "C5", "C6", "C7", "C8", "C9"),
+]
 
 
 def test_reports_hold_every_claim(tmp_path):

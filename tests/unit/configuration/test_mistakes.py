@@ -63,6 +63,8 @@ MISTAKES = [
     ("protocol.shear.smallest_step", 1e-3, "allowed are 0.0001 and a tenth"),
     ("protocol.compression.initial_phi", 0.60005, "a whole number of steps of 0.0001"),
     ("protocol.compression.relaxation", "slow", "allowed is one of fast, fire"),
+    ("protocol.compression.large_diameter", 0, "allowed is a number from 0.5 to 2.0 (d)"),
+    ("protocol.compression.masses", "unit", "allowed is one of area, equal"),
     ("protocol.rattlers.threshold", 3, "allowed is a whole number from 0 to 2"),
     ("figures", ["g_psi"], "unknown figure 'g_psi', allowed are g_phi"),
     ("figures", ["g_phi", "g_phi"], "figures: 'g_phi' stands there twice"),

@@ -19,6 +19,8 @@ STAGES = [
 ]
 DEPENDENCE = {
     "protocol.compression.phi_step": (5e-5, {"compress", "ensemble"}),
+    "protocol.compression.large_diameter": (1.4, {"compress", "ensemble"}),
+    "protocol.compression.masses": ("equal", {"compress", "ensemble"}),
     "protocol.rattlers.threshold": (
         1,
         {"rigidity", "fields", "probes", "ensemble"} | SPECTRA,

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from grainmodes.claims.claim import Claim
-from grainmodes.claims.paper_c import release
+from grainmodes.claims.paper_c import release, variants
 
 CLAIMS: tuple[Claim, ...] = (
     release.spirals,
     release.growth,
     release.second_instability,
     release.damping,
+    variants.smoothed_is_unstable,
+    variants.sharp_is_stable,
 )
-"""C4 to C7, in this order."""
+"""C4 to C9, in this order."""

@@ -23,6 +23,7 @@ def define(commands) -> None:
         _shear,
         _close_up,
         _release,
+        _variants,
         _point,
     ):
         add(commands)
@@ -110,6 +111,11 @@ def _release(commands) -> None:
     options.settings(command)
     options.keep_every(command)
     options.output(command)
+
+
+def _variants(commands) -> None:
+    sentence = "Complex pairs of sheared packings under every tangential law, side by side."
+    _response(commands, "variants", "stages:variants", sentence)
 
 
 def _response(commands, name: str, run: str, sentence: str) -> argparse.ArgumentParser:

@@ -1,0 +1,127 @@
+"""Claims of paper C on other contact laws: C8 and C9, of harmonic grains.
+
+symbol    name                                                              paper C
+λ pairs   variant_pairs_slipping, variant_pairs_sticking, by law            Sec. VIII
+ω_i       variant_rate, by law                                              (12)
+growth    variant_growth of the released state, over ω_i                    (13), Fig. 12(b)
+
+At Coulomb's threshold a sharp spring slips one way and sticks the other, and J has a limit on
+either side. C counts no slip there ("the Hamiltonian remains valid"), which is the sticking side.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
+from grainmodes.claims.estimates import Estimate, mean
+from grainmodes.claims.samples import Samples, at, richest
+from grainmodes.ensemble import normal_law
+
+MOST = 0.5
+"""Share of the samples that must have a pair somewhere on their way."""
+
+HARDLY = 0.02
+"""Share of states that stands for none."""
+
+GROWS = (0.9, 1.1)
+"""Growth over ω_i of what grows as linear theory says."""
+
+STAYS = 0.1
+"""Growth over ω_i below which it does not."""
+
+
+@claim("C8", unit="1")
+def smoothed_is_unstable(ensemble) -> Outcome:
+    """Harmonic grains with the smoothed Coulomb law have the same instability (Sec. VIII, Fig. 12).
+
+    Share of the sheared samples in which complex pairs are born; and the growth rate of released
+    states over ω_i, mean over the states of a sample.
+
+    Criterion: above one half; 0.9 to 1.1.
+    """
+    samples, points = _harmonic(ensemble, "smoothed_coulomb")
+    parts, notes = [], []
+    for point in points:
+        pairs = _of(samples, "pairs_slipping", "smoothed_coulomb", point)
+        parts.append(Part(f"born, {at(*point)}", mean(_born(pairs)), MOST))
+        parts.append(Part(f"growth, {at(*point)}", _growth(samples, point), *GROWS))
+        notes.append(f"{text(mean(np.nanmean(pairs, axis=1)))} pairs a state at {at(*point)}.")
+    return Outcome(_resolved(parts), " ".join(notes))
+
+
+@claim("C9", unit="1")
+def sharp_is_stable(ensemble) -> Outcome:
+    """Harmonic grains with the sharp Coulomb law do not have the instability (Sec. VIII).
+
+    Share of states with complex pairs of the J whose springs stick at their threshold; and the
+    growth rate of released states that have pairs if these springs slip, over their ω_i, the
+    largest of a sample.
+
+    Criterion: below 0.02; below 0.1.
+    """
+    samples, points = _harmonic(ensemble, "sharp_coulomb")
+    parts, notes = [], []
+    for point in points:
+        held, slipped = (
+            _of(samples, name, "sharp_coulomb", point)
+            for name in ("pairs_sticking", "pairs_slipping")
+        )
+        parts.append(Part(f"sticking, {at(*point)}", mean(_share(held)), high=HARDLY))
+        ratio = _ratio(samples, "sharp_coulomb", point)
+        largest = np.where(np.isfinite(ratio), ratio, -np.inf).max(axis=1)
+        growth = Part(f"growth, {at(*point)}", mean(largest[np.isfinite(largest)]), high=STAYS)
+        parts.append(growth)
+        notes.append(
+            f"At {at(*point)} springs that slip make pairs in {text(mean(_share(slipped)))} of the "
+            f"states; of {np.isfinite(ratio).sum()} released ones {(ratio > STAYS).sum()} grow."
+        )
+    return Outcome(_resolved(parts), " ".join(notes))
+
+
+def _harmonic(ensemble, law: str) -> tuple[Samples, list[tuple[float, float]]]:
+    """The samples of harmonic grains, and the points at which they were sheared under this law.
+
+    Raises:
+        NotAsked: the ensemble lacks the numbers, or its grains are not harmonic.
+    """
+    name = f"variant_pairs_slipping_{law}"
+    samples = richest(ensemble, name, f"variant_rate_{law}")
+    if normal_law(ensemble) != "harmonic":
+        raise NotAsked("harmonic grains")
+    return samples, samples.points(name)
+
+
+def _of(samples: Samples, number: str, law: str, point: tuple[float, float]) -> np.ndarray:
+    """A number of the states of every jammed sample, (S, states); rows without any left out."""
+    of = samples.of(f"variant_{number}_{law}", *point)
+    return of[np.isfinite(samples.of(f"variant_rate_{law}", *point)).any(axis=1)]
+
+
+def _born(pairs: np.ndarray) -> np.ndarray:
+    return (np.nan_to_num(pairs) > 0).any(axis=1).astype(float)
+
+
+def _share(pairs: np.ndarray) -> np.ndarray:
+    """Share of the states of a sample that have pairs; (S,)."""
+    return np.where(np.isfinite(pairs), pairs > 0, 0.0).sum(1) / np.isfinite(pairs).sum(1)
+
+
+def _ratio(samples: Samples, law: str, point: tuple[float, float]) -> np.ndarray:
+    """Growth over ω_i, NaN where there is no pair; (S, states)."""
+    growth, rate = (_of(samples, name, law, point) for name in ("growth", "rate"))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(rate > 0.0, growth / rate, np.nan)
+
+
+def _growth(samples: Samples, point: tuple[float, float]) -> Estimate:
+    """Mean growth over ω_i of the samples that have pairs."""
+    ratio = _ratio(samples, "smoothed_coulomb", point)
+    known = np.isfinite(ratio)
+    having = known.any(axis=1)
+    return mean(np.where(known, ratio, 0.0).sum(axis=1)[having] / known.sum(axis=1)[having])
+
+
+def _resolved(parts: list[Part]) -> list[Part]:
+    """Without those that no state stands behind: no pair, no growth."""
+    return [part for part in parts if np.isfinite(part.estimate.value)]

@@ -1,0 +1,27 @@
+"""Names of what is seen under several tangential laws, once for each of them."""
+
+from __future__ import annotations
+
+from grainmodes.dataset.variable import BLOCK, Variable
+from grainmodes.parameters.law import TANGENTIAL_LAWS
+
+STATE = ("seed", "variant_state")
+
+SEEN = {
+    "pairs_slipping": ("1", "complex pairs of J / M, springs at their threshold slipping"),
+    "pairs_sticking": ("1", "complex pairs of J / M, springs at their threshold sticking"),
+    "slipping": ("1", "contacts at their threshold"),
+    "rate": ("1/t_0", "largest omega_i of these pairs, springs slipping; 0: none"),
+    "growth": ("1/t_0", "rate at which the released state leaves; NaN: no pair"),
+}
+"""What is seen in a state → its unit and meaning."""
+
+NAMES = {
+    "variant_count": Variable(BLOCK, "i8", "1", "number of states under several tangential laws"),
+    "variant_strain": Variable(STATE, "f8", "1", "strain of a state that all laws are looked at"),
+    **{
+        f"variant_{number}_{law}": Variable(STATE, "f8", unit, f"{meaning}; law {law}")
+        for law in TANGENTIAL_LAWS
+        for number, (unit, meaning) in SEEN.items()
+    },
+}

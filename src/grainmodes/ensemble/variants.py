@@ -1,0 +1,46 @@
+"""What was seen of sheared packings under several tangential laws, by sample: C, Sec. VIII."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from grainmodes.ensemble.reading import variable
+from grainmodes.parameters.law import TANGENTIAL_LAWS
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+NUMBERS = ("pairs_slipping", "pairs_sticking", "rate", "growth")
+
+
+def points_with_variants(ensemble: xr.Dataset) -> list[tuple[int, float, float]]:
+    """(n, phi, kt) at which a jammed sample was sheared, ascending.
+
+    Raises:
+        BlockError: the ensemble holds no variants.
+    """
+    states = variable(ensemble, "variant_count").max("seed")
+    axes = [states[name].to_numpy().tolist() for name in ("n", "phi", "kt")]
+    places = zip(*np.nonzero(states.to_numpy() > 0), strict=True)
+    return [tuple(axis[k] for axis, k in zip(axes, place, strict=True)) for place in places]
+
+
+def variants_at(
+    ensemble: xr.Dataset, n: int, phi: float, kt: float
+) -> tuple[np.ndarray, dict[str, dict[str, np.ndarray]]]:
+    """The strains (M,), and law → number of `NUMBERS` → (S, M) of a point; NaN: not known.
+
+    Raises:
+        BlockError: the ensemble holds no variants.
+    """
+    point = variable(ensemble, "variant_strain").sel(n=n, phi=phi, kt=kt).to_numpy()
+    used = np.isfinite(point).any(axis=1)
+    strain = np.nanmax(point[used], axis=0)
+    found = {}
+    for law in TANGENTIAL_LAWS:
+        rows = (variable(ensemble, f"variant_{number}_{law}") for number in NUMBERS)
+        of = (row.sel(n=n, phi=phi, kt=kt).to_numpy()[used] for row in rows)
+        found[law] = dict(zip(NUMBERS, of, strict=True))
+    return strain, found

@@ -1,0 +1,89 @@
+"""C8 and C9 hold where they should, and fall, alone, where one number is doctored."""
+
+import json
+
+import numpy as np
+import pytest
+
+import claimed_variants
+from grainmodes.claims import CLAIMS, check
+from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED
+from grainmodes.claims.paper_c import variants
+
+OWN = (variants.smoothed_is_unstable, variants.sharp_is_stable)
+
+
+def verdicts(ensemble, claims=OWN):
+    return {verdict.claim: verdict for verdict in check(ensemble, claims)}
+
+
+def never_born(ensemble):
+    ensemble["variant_pairs_slipping_smoothed_coulomb"] *= 0.0
+
+
+def slower(ensemble):
+    ensemble["variant_growth_smoothed_coulomb"] *= 0.5
+
+
+def held_springs_oscillate(ensemble):
+    sharp = ensemble["variant_pairs_slipping_sharp_coulomb"]
+    ensemble["variant_pairs_sticking_sharp_coulomb"] = sharp.copy()
+
+
+def sharp_grows(ensemble):
+    sharp = ensemble["variant_rate_sharp_coulomb"]
+    ensemble["variant_growth_sharp_coulomb"] = 0.5 * sharp.where(sharp > 0.0)
+
+
+def test_both_hold_and_name_their_numbers():
+    found = verdicts(claimed_variants.ensemble())
+    assert {name: v.verdict for name, v in found.items()} == {"C8": HOLDS, "C9": HOLDS}
+    assert "1.5 ± 0.00" in found["C8"].explanation
+    assert "slip make pairs in 0.5 ± 0 of the states; of 30 released ones 0 grow" in (
+        found["C9"].explanation
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "doctor"),
+    [
+        ("C8", never_born),
+        ("C8", slower),
+        ("C9", held_springs_oscillate),
+        ("C9", sharp_grows),
+    ],
+)
+def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
+    ensemble = claimed_variants.ensemble()
+    doctor(ensemble)
+    found = verdicts(ensemble, CLAIMS)
+    fallen = {n: v.verdict for n, v in found.items() if v.verdict not in (HOLDS, NOT_ASKED)}
+    assert fallen == {name: CONTRADICTED}
+
+
+def test_one_state_that_grows_is_told_before_it_decides():
+    ensemble = claimed_variants.ensemble()
+    growth = ensemble["variant_growth_sharp_coulomb"].to_numpy()
+    growth[..., 0, 1] = 0.4 * claimed_variants.RATE
+    ensemble["variant_growth_sharp_coulomb"].values = growth
+    verdict = verdicts(ensemble)["C9"]
+    assert verdict.verdict != HOLDS
+    assert "of 30 released ones 1 grow" in verdict.explanation
+
+
+def test_hertzian_grains_and_other_observables_are_not_asked():
+    ensemble = claimed_variants.ensemble()
+    without = ensemble.drop_vars("variant_pairs_slipping_sharp_coulomb")
+    assert verdicts(without)["C9"].verdict == NOT_ASKED
+    assert verdicts(without)["C8"].verdict == HOLDS
+    ensemble.attrs["config"] = json.dumps({})
+    assert {v.verdict for v in verdicts(ensemble).values()} == {NOT_ASKED}
+
+
+def test_a_sharp_law_without_slip_is_judged_by_its_springs_alone():
+    ensemble = claimed_variants.ensemble()
+    for name, value in (("pairs_slipping", 0.0), ("rate", 0.0), ("growth", np.nan)):
+        ensemble[f"variant_{name}_sharp_coulomb"] *= value
+    verdict = verdicts(ensemble)["C9"]
+    assert verdict.verdict == HOLDS
+    assert verdict.where.startswith("sticking")
