@@ -9,6 +9,7 @@ from grainmodes.dataset import (
     close_up,
     fields,
     packing,
+    pairs,
     probes,
     rigidity,
     shear,
@@ -18,7 +19,7 @@ from grainmodes.dataset.variable import Variable
 
 VARIABLES: dict[str, Variable] = {
     name: row
-    for theme in (packing, rigidity, spectrum, probes, fields, shear, close_up)
+    for theme in (packing, rigidity, spectrum, probes, fields, shear, close_up, pairs)
     for name, row in theme.NAMES.items()
 }
 """Every name that a block or an ensemble may hold."""

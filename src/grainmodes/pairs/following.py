@@ -1,9 +1,9 @@
 """Which complex pair of one state is which of the next.
 
-A pair spans a real plane, Re u and Im u. With the left plane L of the old pair, Lᵀ R = 1, the part of
-the new plane R' that lies in the old one is |Lᵀ R'|/√2. It is 1 for the same plane and, unlike the
-product of right eigenvectors, 0 for every other plane of the same matrix. Two pairs are the same
-one if each has its largest part in the other and both parts are above `SAME`.
+A pair spans a real plane, Re u and Im u. With the left plane L of the old pair, Lᵀ R = 1, the part
+of the new plane R' that lies in the old one is |Lᵀ R'|/√2. It is 1 for the same plane and, unlike
+the product of right eigenvectors, 0 for every other plane of the same matrix. Two pairs are the
+same one if each has its largest part in the other and both parts are above `SAME`.
 """
 
 from __future__ import annotations

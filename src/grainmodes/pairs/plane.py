@@ -11,8 +11,9 @@ therefore computed from the plane. It is improved until it stands still,
     R ← (K − σ)⁻¹ R,   L ← (K − σ)⁻ᵀ L,   B = Lᵀ K R with Lᵀ R = 1
 
 with σ = tr B / 2 for the whole plane where the two are `CLOSE`, and with σ = λ1, λ2 for each
-eigenvector elsewhere, where another mode may lie between them. The scalar product of the two eigenvectors is C's,
-|Σ u¹_j u²_j| with norms 1 and no conjugation: 1 for a complex pair, 0 where K is symmetric.
+eigenvector elsewhere, where another mode may lie between them. The scalar product of the two
+eigenvectors is C's, |Σ u¹_j u²_j| with norms 1 and no conjugation: 1 for a complex pair, 0 where K
+is symmetric.
 """
 
 from __future__ import annotations
@@ -125,10 +126,8 @@ def _improved(matrix: sparse.csr_array, now: Plane) -> tuple[np.ndarray, np.ndar
         return factors.solve(now.right), factors.solve(now.left, trans="T")
     pair = now.discriminant < 0.0
     values = now.values[:1] if pair else now.values.real
-    rights, lefts = (
-        now.right @ _kernels(now.block, values),
-        now.left @ _kernels(now.block.T, values),
-    )
+    rights = now.right @ _kernels(now.block, values)
+    lefts = now.left @ _kernels(now.block.T, values)
     right, left = [], []
     for place, value in enumerate(values):
         factors = _shifted(matrix, value)

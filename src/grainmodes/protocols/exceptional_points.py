@@ -69,7 +69,7 @@ class Near(NamedTuple):
 
 
 class Exponent(NamedTuple):
-    """Slope of log|λ1 − λ2| against log|γ − γ_c|, its standard error, and how many states it has."""
+    """Slope of log|λ1 − λ2| against log|γ − γ_c|, its standard error, the number of states."""
 
     value: float
     error: float
@@ -87,10 +87,12 @@ class ExceptionalPoint(NamedTuple):
 
     def exponent(self, real: bool) -> Exponent:
         """The exponent on the side where the two modes are real, or a pair."""
-        at = [n for n in self.near if (n.plane.discriminant > 0.0) == real]
-        return fitted(
-            *np.array([(abs(n.distance), abs(n.plane.discriminant)) for n in at]).reshape(-1, 2).T
+        at = sorted(
+            (abs(near.distance), abs(near.plane.discriminant))
+            for near in self.near
+            if (near.plane.discriminant > 0.0) == real
         )
+        return fitted(*np.array(at).reshape(-1, 2).T)
 
 
 def located(pair: Side, other: Balance, choices: Shear, bracket: float) -> ExceptionalPoint:
@@ -158,17 +160,26 @@ def _branch(end: Side, origin: float, distances: np.ndarray, choices: Shear) -> 
         yield Near(distance, side.plane)
 
 
-def fitted(distance: np.ndarray, discriminant: np.ndarray) -> Exponent:
-    """The exponent ν in log|D|/2 = ν log δ + c + bδ by least squares; NaN below 5 states.
+BENT = 0.1
+"""Largest bδ of a state in the fit of an exponent."""
 
-    The term bδ takes up the curvature of D, b = β/2α, which would bend the line at large δ.
+FEWEST = 5
+"""States on one side that a fit needs: two more than it has unknowns."""
+
+
+def fitted(distance: np.ndarray, discriminant: np.ndarray) -> Exponent:
+    """The exponent ν in log|D|/2 = ν log δ + c + bδ by least squares, δ ascending.
+
+    The term bδ takes up the curvature of D, b = β/2α. States at which it is larger than `BENT` are
+    left out: another singularity, such as a contact about to open, is near. NaN below `FEWEST`.
     """
-    count = len(distance)
-    if count < 5:
-        return Exponent(np.nan, np.nan, count)
-    terms = np.stack([np.log(distance), np.ones(count), distance / distance.max()], axis=1)
-    measured = 0.5 * np.log(discriminant)
-    found, *_ = np.linalg.lstsq(terms, measured)
-    left = measured - terms @ found
-    variance = left @ left / (count - 3) * np.linalg.inv(terms.T @ terms)[0, 0]
-    return Exponent(float(found[0]), float(np.sqrt(variance)), count)
+    for count in range(len(distance), FEWEST - 1, -1):
+        near = distance[:count] / distance[count - 1]
+        terms = np.stack([np.log(near), np.ones(count), near], axis=1)
+        measured = 0.5 * np.log(discriminant[:count])
+        found, *_ = np.linalg.lstsq(terms, measured)
+        if abs(found[2]) <= BENT:
+            left = measured - terms @ found
+            variance = left @ left / (count - 3) * np.linalg.inv(terms.T @ terms)[0, 0]
+            return Exponent(float(found[0]), float(np.sqrt(variance)), count)
+    return Exponent(np.nan, np.nan, 0)
