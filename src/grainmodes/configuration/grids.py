@@ -25,6 +25,7 @@ class Observables:
     shear: bool = False
     unbracketed: bool = False
     close_up: bool = False
+    complex_pairs: bool = False
 
     @property
     def words(self) -> set[str]:
@@ -39,6 +40,7 @@ class Observables:
             "shear": self.shear,
             "unbracketed": self.shear and self.unbracketed,
             "close_up": self.close_up,
+            "complex_pairs": self.complex_pairs,
         }
         return {word for word, here in offered.items() if here}
 
@@ -87,6 +89,7 @@ class Grid:
             "spectrum_hessian": asked.hessian and kt > 0.0,
             "probes": asked.probes and kt > 0.0,
             "shear": asked.shear,
+            "pairs": asked.complex_pairs and kt > 0.0,
         }
         return [stage for stage, here in wanted.items() if here]
 

@@ -93,6 +93,7 @@ NEEDED = {
     "shear": "observables.shear: true",
     "unbracketed": "observables.unbracketed: true",
     "close_up": "observables.close_up: true",
+    "complex_pairs": "observables.complex_pairs: true",
     "friction": "these observables at a kt above 0",
     "frictionless": "these observables at kt = 0",
     "all_modes": f"these observables at an n of at most {MOST_FOR_ALL_MODES}",

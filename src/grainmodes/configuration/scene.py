@@ -9,6 +9,7 @@ from grainmodes.configuration.grids import Grid, drawable
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import Point, seed_blocks
 from grainmodes.parameters.law import ContactLaw, Rattlers
+from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import Shear, StepStrain
@@ -42,6 +43,7 @@ class Scene:
                 Compression(**protocol["compression"]),
                 StepStrain(**protocol["step_strain"]),
                 Shear(**protocol["shear"]),
+                PairChoices(**protocol["pairs"]),
                 Rattlers(**protocol["rattlers"]),
                 SpectrumChoices(**protocol["spectrum"]),
             ),
@@ -111,6 +113,7 @@ class Scene:
             "shear": _part(law, protocol, "shear")
             | {"observables": {"shear": True, "unbracketed": unbracketed}},
             "close_up": _part(law, protocol, "shear"),
+            "pairs": _part(law, protocol, "shear", "pairs"),
             "ensemble": _part(law, protocol, *protocol) | {"study": self.study},
         }
         return json.dumps(parts[stage], sort_keys=True)

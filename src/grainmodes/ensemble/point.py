@@ -1,7 +1,7 @@
 """All blocks of seeds and all observables of one point (n, phi, k_T), merged sample by sample.
 
 Each seed that stands in any block becomes one row, in the order of the seeds. A number is kept if
-there is one, or one per mode, bin, step strain, state or event, in a sample; coordinates of grains
+there is one, or one per mode, bin, step strain, state, event or pair, in a sample; coordinates of grains
 stay in the packings and in the files of their shear.
 A sample is converged when every observable of the point has it converged; a seed that an
 observable lacks has there NaN (integers: 0), hence also converged = 0. Where two observables hold
@@ -27,10 +27,14 @@ STAGES = (
     "spectrum_hessian",
     "probes",
     "shear",
+    "pairs",
 )
 """Values of the attribute `stage`, in the order in which names win."""
 
-SERIES = ("mode", "edge", "bin", "probe", "state", "unbracketed_state", "event", "change")
+SERIES = (
+    *("mode", "edge", "bin", "probe", "state", "unbracketed_state", "event", "change"),
+    *("pair_state", "life", "located", "exceptional_state", "followed_state", "product"),
+)
 
 PER_SAMPLE = (("seed",), *(("seed", name) for name in SERIES))
 """Dimensions of the variables that a point keeps."""

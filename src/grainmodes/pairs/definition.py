@@ -60,8 +60,17 @@ def dense_pairs(matrix: sparse.csr_array) -> Pairs:
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
-    value, left, right = scipy.linalg.eig(matrix.toarray(), left=True, overwrite_a=True)
+    value, left, right = dense_eigenpairs(matrix)
     return selected(value, right, left)
+
+
+def dense_eigenpairs(matrix: sparse.csr_array) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Eigenvalues (M,), left and right vectors (M, M) by LAPACK.
+
+    Raises:
+        numpy.linalg.LinAlgError: the eigensolver did not converge.
+    """
+    return scipy.linalg.eig(matrix.toarray(), left=True, overwrite_a=True)
 
 
 def selected(value: np.ndarray, right: np.ndarray, left: np.ndarray) -> Pairs:

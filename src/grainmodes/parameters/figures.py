@@ -111,6 +111,18 @@ FIGURES = {
         ("close_up",),
         "close_up",
     ),
+    "pair_birth": Figure(
+        "Two real eigenvalues become a complex pair (paper C, Fig. 1)",
+        ("complex_pairs", "friction"),
+    ),
+    "pair_overlap": Figure(
+        "Scalar products of eigenvectors around a complex pair (paper C, Figs. 2 and 3)",
+        ("complex_pairs", "friction"),
+    ),
+    "pair_exponent": Figure(
+        "Difference of two eigenvalues against the distance to gamma_c (paper C, Fig. 4)",
+        ("complex_pairs", "friction"),
+    ),
 }
 """Every figure. `rigidity` figures show the simulated step strain as well where a study has it;
 `modes` stands for a spectrum with eigenvectors or band averages, `friction` for a k_T above 0,

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import Rattlers
+from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import Shear, StepStrain
 
@@ -17,5 +18,6 @@ class Protocol:
     compression: Compression = field(default_factory=Compression)
     step_strain: StepStrain = field(default_factory=StepStrain)
     shear: Shear = field(default_factory=Shear)
+    pairs: PairChoices = field(default_factory=PairChoices)
     rattlers: Rattlers = field(default_factory=Rattlers)
     spectrum: SpectrumChoices = field(default_factory=SpectrumChoices)

@@ -23,6 +23,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from grainmodes.packing import Packing
+from grainmodes.pairs.carried import Carried
 from grainmodes.pairs.definition import Pairs, dense_pairs, mass_weighted, on_all_grains
 from grainmodes.pairs.following import matched
 from grainmodes.pairs.plane import plane_of
@@ -63,7 +64,7 @@ class ByLapack:
         return dense_pairs(matrix)
 
 
-DETECTORS: dict[str, type[Detector]] = {"dense": ByLapack}
+DETECTORS: dict[str, type[Detector]] = {"carried": Carried, "dense": ByLapack}
 """How pairs are found, by the name of the choice."""
 
 
