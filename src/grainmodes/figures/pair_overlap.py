@@ -6,13 +6,11 @@ their eigenvalues, from birth to death.
 
 from __future__ import annotations
 
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.ensemble.exceptional import Sample
-from grainmodes.figures import appearance
 from grainmodes.figures.paired_samples import (
     EIGENVALUE,
     FIRST,
