@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from grainmodes.claims import paper_a, paper_b
+from grainmodes.claims import paper_a, paper_b, paper_c
 from grainmodes.claims.claim import Claim, Verdict
 
-CLAIMS: tuple[Claim, ...] = (*paper_a.CLAIMS, *paper_b.CLAIMS)
-"""A1 to A19, then B1 to B10."""
+CLAIMS: tuple[Claim, ...] = (*paper_a.CLAIMS, *paper_b.CLAIMS, *paper_c.CLAIMS)
+"""A1 to A19, B1 to B10, then C1 to C3."""
 
 
 def check(ensemble, claims: tuple[Claim, ...] = CLAIMS) -> list[Verdict]:

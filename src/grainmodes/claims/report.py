@@ -33,7 +33,7 @@ def as_markdown(verdicts: list[Verdict]) -> str:
     rows = [(v.claim, v.statement, _named(v), v.criterion, v.verdict) for v in verdicts]
     table = "".join(f"| {' | '.join(map(_cell, row))} |\n" for row in rows)
     found = "".join(f"\n**{v.claim}, {v.verdict}.** {_cell(v.explanation)}\n" for v in verdicts)
-    return f"# Claims of papers A and B\n\n{_counts(verdicts)}\n\n{head}{table}{found}"
+    return f"# Claims of papers A, B and C\n\n{_counts(verdicts)}\n\n{head}{table}{found}"
 
 
 def as_csv(verdicts: list[Verdict]) -> str:

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.ensemble.exceptional import Sample
+from grainmodes.figures import appearance
 from grainmodes.figures.paired_samples import (
     EIGENVALUE,
     FIRST,
@@ -19,7 +20,6 @@ from grainmodes.figures.paired_samples import (
     draw_eigenvalues,
     longest_pair,
     mark_ends,
-    name_sample,
     shown,
     with_paths,
 )
@@ -72,7 +72,8 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
             half.suptitle(f"(a) $N = {few['n'].iloc[0]:.0f}$: one mode with all others", fontsize=8)
         else:
             _one_pair(half, pair)
-    name_sample(figure, table, "scalar products of eigenvectors")
+    row = table.iloc[0]
+    figure.suptitle(", ".join(appearance.CONSTANTS[name](row[name]) for name in ("phi", "kt")))
 
 
 def _all_modes(axes: Axes, few: pd.DataFrame) -> None:
@@ -86,7 +87,7 @@ def _all_modes(axes: Axes, few: pd.DataFrame) -> None:
     axes.plot([], [], color="0.6", label=f"mode {mode:.0f} and the others")
     axes.axhline(1.0, color="k", ls="--", lw=0.6)
     axes.set(xlabel=r"$\gamma$", ylabel=r"$\langle u^m | u^n \rangle$", ylim=(0.0, 1.1))
-    axes.legend(loc="center right")
+    axes.legend(loc="best")
 
 
 def _one_pair(half, pair: pd.DataFrame) -> None:

@@ -78,6 +78,7 @@ def mark_ends(axes: Axes, path: pd.DataFrame) -> None:
 
 def name_sample(figure: Figure, table: pd.DataFrame, note: str) -> None:
     """Constants of the sample, and a note, on top."""
-    row = table.iloc[0]
+    row = dict(table.iloc[0])
+    row = row | {"n": int(row["n"])}
     parts = [appearance.CONSTANTS[name](row[name]) for name in ("n", "phi", "kt")]
     figure.suptitle(", ".join([*parts, f"sample {row['seed']:.0f}"]) + f"\n{note}")

@@ -54,7 +54,7 @@ def _figure(commands) -> None:
 
 
 def _claims(commands) -> None:
-    sentence = "Check the claims of papers A and B on an ensemble."
+    sentence = "Check the claims of papers A, B and C on an ensemble."
     command = options.command(commands, "claims", "collections:claims", sentence)
     command.add_argument("ensemble", type=Path, help="file of `grainmodes ensemble`")
     command.add_argument(
