@@ -158,8 +158,7 @@ def _products(walk: PairWalk) -> dict[str, object]:
         for other, product in enumerate(products.product.tolist())
         if other != products.mode
     ]
-    row = _columns("product", ("strain", "mode", "other", "value"), rows)
-    return {name.removesuffix("_value"): values for name, values in row.items()}
+    return _columns("product", ("strain", "mode", "other", "value"), rows)
 
 
 def _columns(of: str, names: Sequence[str], rows: list[tuple]) -> dict[str, object]:

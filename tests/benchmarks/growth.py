@@ -37,8 +37,8 @@ LONGEST = 100.0
 LAST = 4
 """So many of the largest sizes are fitted: small ones are governed by overheads."""
 
-KEPT = {"close_up"}
-"""Works whose cost hangs on where the first event of a sample lies, more than on N."""
+KEPT = {"close_up", "pairs"}
+"""Works whose cost hangs on where a sample has its events, or its pairs, more than on N."""
 
 LEAST = 1.0
 """MB: less cannot be told from a bare job."""

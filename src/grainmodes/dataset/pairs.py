@@ -81,7 +81,7 @@ NAMES = {
     "product_strain": Variable(PRODUCT, "f8", "1", "strain of a state of few grains; NaN: none"),
     "product_mode": Variable(PRODUCT, "i4", "1", "number of the mode that is looked at"),
     "product_other": Variable(PRODUCT, "i4", "1", "number of another mode, from 0 by real part"),
-    "product": Variable(PRODUCT, "f8", "1", "scalar product of the two eigenvectors"),
+    "product_value": Variable(PRODUCT, "f8", "1", "scalar product of the two eigenvectors"),
     # the state that grows fastest
     "unstable_found": Variable(BLOCK, "i1", "1", "1 if a state had a complex pair"),
     "unstable_strain": Variable(BLOCK, "f8", "1", "strain of the state with the largest omega_i"),

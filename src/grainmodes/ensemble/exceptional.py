@@ -26,7 +26,7 @@ COALESCENCE = 1
 AXES = ("n", "phi", "kt", "seed")
 NEAR = ("of", "distance", "sum", "discriminant", "product", "condition")
 PATH = ("of", "strain", "real_1", "real_2", "imaginary", "product")
-PRODUCT = ("strain", "mode", "other")
+PRODUCT = ("strain", "mode", "other", "value")
 
 
 @dataclass(frozen=True)
@@ -47,10 +47,13 @@ def samples(ensemble: xr.Dataset) -> list[Sample]:
     """Every converged and jammed sample with a located coalescence, in the order of the grid.
 
     Raises:
-        BlockError: the ensemble holds no exceptional points.
+        BlockError: its study did not ask for complex pairs.
     """
+    variable(ensemble, "pair_state_count")
+    if "located_kind" not in ensemble:
+        return []
     used = (ensemble["converged"] == 1) & (ensemble["jammed"] == 1)
-    kinds = variable(ensemble, "located_kind").where(used)
+    kinds = ensemble["located_kind"].where(used)
     found = (kinds == COALESCENCE).any("located").transpose(*AXES).to_numpy()
     grid = [ensemble[axis].to_numpy().tolist() for axis in AXES]
     places = [[of[k] for of, k in zip(grid, at, strict=True)] for at in np.argwhere(found).tolist()]
@@ -62,9 +65,7 @@ def _sample(ensemble: xr.Dataset, place: dict[str, float]) -> Sample:
     names = ("life", "birth", "kind", "strain", "exponent_real", "exponent_pair")
     points = _frame(row, "located", names)
     points = points[points["kind"] == COALESCENCE]
-    products = _frame(row, "product", PRODUCT)
-    if len(products):
-        products["product"] = row["product"].to_numpy()[: len(products)]
+    products = _frame(row, "product", PRODUCT).rename(columns={"value": "product"})
     near, path = _frame(row, "exceptional", NEAR), _frame(row, "followed", PATH)
     return Sample(place, points, near, path, products)
 

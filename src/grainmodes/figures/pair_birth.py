@@ -31,7 +31,7 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     """A row per state up to some states after the birth, with the columns `COLUMNS`.
 
     Raises:
-        BlockError: the ensemble holds no exceptional points.
+        BlockError: its study did not ask for complex pairs.
         ValueError: none lies at the n, phi, kt or seed asked for.
     """
     sample = shown(with_paths(ensemble), options)

@@ -35,7 +35,7 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     for none.
 
     Raises:
-        BlockError: the ensemble holds no exceptional points.
+        BlockError: its study did not ask for complex pairs.
     """
     found = [s for s in samples(ensemble) if options.n in (None, s.place["n"])]
     parts = [_rows(sample) for sample in found]

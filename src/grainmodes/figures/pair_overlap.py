@@ -40,7 +40,7 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     """Rows of the pair, then rows of all modes among few grains, with the columns `COLUMNS`.
 
     Raises:
-        BlockError: the ensemble holds no exceptional points.
+        BlockError: its study did not ask for complex pairs.
         ValueError: none lies at the n, phi, kt or seed asked for.
     """
     found = with_paths(ensemble)
@@ -87,7 +87,7 @@ def _all_modes(axes: Axes, few: pd.DataFrame) -> None:
     axes.plot([], [], color="0.6", label=f"mode {mode:.0f} and the others")
     axes.axhline(1.0, color="k", ls="--", lw=0.6)
     axes.set(xlabel=r"$\gamma$", ylabel=r"$\langle u^m | u^n \rangle$", ylim=(0.0, 1.1))
-    axes.legend(loc="best")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.4, 0.88))
 
 
 def _one_pair(half, pair: pd.DataFrame) -> None:

@@ -40,7 +40,7 @@ def with_paths(ensemble) -> list[Sample]:
     """The samples in which two modes were followed.
 
     Raises:
-        BlockError: the ensemble holds no exceptional points.
+        BlockError: its study did not ask for complex pairs.
     """
     return [sample for sample in samples(ensemble) if len(sample.path)]
 

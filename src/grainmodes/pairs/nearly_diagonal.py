@@ -72,6 +72,13 @@ class NearlyDiagonal(NamedTuple):
 
 def solved(matrix: NearlyDiagonal) -> Solved | None:
     """The eigenpairs of B; None where they do not add up."""
+    try:
+        return _gathered(matrix)
+    except np.linalg.LinAlgError:  # a mode outside a window stands exactly in its middle
+        return None
+
+
+def _gathered(matrix: NearlyDiagonal) -> Solved | None:
     size = len(matrix.diagonal)
     values, rows = np.zeros(size, complex), np.zeros((size, size), np.float32)
     place, coupling = 0, 0.0
@@ -110,7 +117,8 @@ def _reduced(matrix: NearlyDiagonal, inside: np.ndarray, middle: float) -> np.nd
     inverse = _inverse(middle, matrix.diagonal, inside)
     back = matrix.transposed[inside].T
     reach = matrix.change[inside] * inverse
-    second, bend = reach @ back, (reach * inverse) @ back
+    with np.errstate(invalid="ignore"):
+        second, bend = reach @ back, (reach * inverse) @ back
     block = np.diag(matrix.diagonal[inside]) + matrix.change[np.ix_(inside, inside)] + second
     return np.linalg.solve(np.eye(len(inside)) + bend, block + middle * bend)
 
@@ -120,7 +128,8 @@ def _inverse(value, diagonal: np.ndarray, inside: np.ndarray) -> np.ndarray:
     distance = value - diagonal
     distance[..., inside] = np.inf
     single = np.complex64 if np.iscomplexobj(distance) else np.float32
-    return (1.0 / distance).astype(single)
+    with np.errstate(divide="ignore", over="ignore"):
+        return (1.0 / distance).astype(single)
 
 
 def _cut(values: np.ndarray, wanted: float) -> float:

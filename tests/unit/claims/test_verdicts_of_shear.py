@@ -33,9 +33,10 @@ def verdicts(ensemble, claims=paper_b.CLAIMS):
 
 def test_both_papers_stand_in_one_table():
     found = verdicts(claimed_shear.ensemble(), CLAIMS)
-    assert list(found) == [*(f"A{number}" for number in range(1, 20)), *NAMES]
-    assert {name for name, v in found.items() if v.verdict == NOT_ASKED} == NEVER
-    assert {v.verdict for name, v in found.items() if name not in NEVER} == {HOLDS}
+    ours = [name for name in found if not name.startswith("C")]
+    assert ours == [*(f"A{number}" for number in range(1, 20)), *NAMES]
+    assert {name for name in ours if found[name].verdict == NOT_ASKED} == NEVER
+    assert {found[name].verdict for name in ours if name not in NEVER} == {HOLDS}
 
 
 @pytest.mark.parametrize(("name", "doctor"), [*DOCTORED.items(), *SECOND.items()])

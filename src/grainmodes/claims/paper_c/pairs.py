@@ -125,7 +125,7 @@ def _grouped(ensemble) -> Iterator[tuple[str, list[Sample]]]:
         NotAsked: the ensemble lacks them.
     """
     if "located_kind" not in ensemble:
-        raise NotAsked("located_kind")
+        raise NotAsked("located_kind, exceptional points of complex pairs")
     groups: dict[tuple, list[Sample]] = {}
     for sample in samples(ensemble):
         place = sample.place
