@@ -19,7 +19,7 @@ from grainmodes.parameters.law import TANGENTIAL_LAWS
 
 JAMMING = 0.845
 STAGES = ("packings", "rigidity", "step_strain", "spectrum")
-WHOLE = (*STAGES, "spectrum_rattlers", "spectrum_hessian", "shear", "variants")
+WHOLE = (*STAGES, "spectrum_rattlers", "spectrum_hessian", "shear", "pairs", "variants")
 
 
 def block(stage: str, n: int, phi: float, kt: float, seeds: range, /, **changes) -> Block:
@@ -207,6 +207,58 @@ def _variants(n, phi, kt, size, draws):
     return row
 
 
+def _pairs(n, phi, kt, size, draws):
+    """A pair from γ = 4e-3 to 8e-3, (λ1 − λ2)² = (γ − 4e-3)(γ − 8e-3) and 1e-2 (λ1 − λ2)² near it.
+
+    The scalar product is 1 for a pair and 1 − (λ1 − λ2)²/1e-5 else; N = 8 tells all products.
+    """
+    if phi <= JAMMING or kt == 0.0:
+        return {"pair_state_count": np.zeros(size, int), "jammed": np.zeros(size, np.int8)}
+    one, strain = np.ones((size, 1)), np.arange(13) * 1e-3
+    squared = (strain - 4e-3) * (strain - 8e-3)
+    half = 0.5 * np.sqrt(squared.astype(complex))
+    ends, delta = np.array([4e-3, 8e-3]), np.logspace(-8, -5, 4)
+    distance = np.concatenate([-delta[::-1], delta])
+    near = np.concatenate([-1e-2 * distance, 1e-2 * distance])
+    row = {
+        "pair_state_count": np.full(size, len(strain)),
+        "pair_strain": one * strain,
+        "pair_count": one * (squared < 0.0),
+        "located_life": one * [0, 0],
+        "located_birth": one * [1, 0],
+        "located_kind": one * [1, 1],
+        "located_strain": one * ends,
+        "located_exponent_real": one * [0.5, 0.5],
+        "located_exponent_pair": one * [0.5, 0.5],
+        "exceptional_of": one * np.repeat([0, 1], len(distance)),
+        "exceptional_distance": one * np.tile(distance, 2),
+        "exceptional_sum": one * np.full(len(near), 0.4),
+        "exceptional_discriminant": one * near,
+        "exceptional_product": one * (1.0 - near.clip(0.0) / 1e-5),
+        "exceptional_condition": one / np.abs(near),
+        "followed_of": one * np.zeros(len(strain)),
+        "followed_strain": one * strain,
+        "followed_real_1": one * (0.2 + half.real),
+        "followed_real_2": one * (0.2 - half.real),
+        "followed_imaginary": one * half.imag,
+        "followed_product": one * (1.0 - squared.clip(0.0) / 1e-4),
+        "jammed": np.ones(size, np.int8),
+    }
+    return row | (_products(strain, squared, one) if n == 8 else {})
+
+
+def _products(strain, squared, one):
+    """Those of mode 3: with mode 4 as above, with all others 0.1."""
+    other = np.tile([0, 1, 2, 4], len(strain))
+    value = np.where(other == 4, np.repeat(1.0 - squared.clip(0.0) / 1e-4, 4), 0.1)
+    return {
+        "product_strain": one * np.repeat(strain, 4),
+        "product_mode": one * np.full(len(other), 3),
+        "product_other": one * other,
+        "product_value": one * value,
+    }
+
+
 def _in_bin(eigenvalue, edges):
     """Whether a mode lies in a bin: (samples, modes, bins)."""
     squared = edges**2
@@ -224,4 +276,5 @@ _VARIABLES = {
     "spectrum_hessian": _spectrum_hessian,
     "shear": _shear,
     "variants": _variants,
+    "pairs": _pairs,
 }

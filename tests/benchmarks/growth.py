@@ -37,9 +37,9 @@ LONGEST = 100.0
 LAST = 4
 """So many of the largest sizes are fitted: small ones are governed by overheads."""
 
-KEPT = {"close_up", "release"}
-"""Works whose cost hangs on where the first event of a sample lies, or on how slowly its unstable
-state is left, more than on N."""
+KEPT = {"close_up", "pairs", "release"}
+"""Works whose cost hangs on where a sample has its events or its pairs, or on how slowly its
+unstable state is left, more than on N."""
 
 LEAST = 1.0
 """MB: less cannot be told from a bare job."""

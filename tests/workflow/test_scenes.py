@@ -34,7 +34,7 @@ def test_only_eigenvalues(fresh):
 
 
 def test_every_observable(fresh):
-    asked = ["rattlers", "hessian", "fields", "probes", "close_up"]
+    asked = ["rattlers", "hessian", "fields", "probes", "close_up", "complex_pairs"]
     fresh.write_scene(scene_of(dict.fromkeys(asked, True) | {"spectrum": "eigenvalues"}))
     plan = fresh.run("-n", "-p")
     jobs = jobs_in(plan)
@@ -45,6 +45,7 @@ def test_every_observable(fresh):
         "probes",
         "fields",
         "close_up",
+        "pairs",
     ):
         assert jobs[stage] == 4
     assert "--variant rattlers" in plan

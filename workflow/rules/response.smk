@@ -107,6 +107,21 @@ rule shear:
         " --settings {params.settings:q} -o {output}"
 
 
+rule pairs:
+    input:
+        packings=f"{STUDY}/packings/{BLOCK}",
+        code=sources("grainmodes.pair_blocks:pairs_block"),
+    output:
+        f"{STUDY}/pairs/{RESPONSE}",
+    params:
+        settings=scene.settings("pairs"),
+    message:
+        f"Complex pairs at {AT}."
+    shell:
+        "grainmodes pairs {input.packings} --kt {wildcards.kt}"
+        " --settings {params.settings:q} -o {output}"
+
+
 rule release:
     input:
         pairs=f"{STUDY}/pairs/{RESPONSE}",

@@ -6,7 +6,7 @@ from grainmodes.claims import paper_a, paper_b, paper_c
 from grainmodes.claims.claim import Claim, Verdict
 
 CLAIMS: tuple[Claim, ...] = (*paper_a.CLAIMS, *paper_b.CLAIMS, *paper_c.CLAIMS)
-"""A1 to A19, B1 to B10, then those of paper C."""
+"""A1 to A19, B1 to B10, then C1 to C9."""
 
 
 def check(ensemble, claims: tuple[Claim, ...] = CLAIMS) -> list[Verdict]:

@@ -142,6 +142,17 @@ def close_up(arguments: Namespace) -> None:
     write_block(arguments.output, block)
 
 
+def pairs(arguments: Namespace) -> None:
+    """Packings → complex pairs along their shear."""
+    from grainmodes.pair_blocks import pairs_block
+
+    scene = _scene(arguments.settings, kt=arguments.kt)
+    law, protocol = scene.law_at(arguments.kt), scene.protocol
+    with _opened(arguments.packings, "packings") as packings:
+        block = pairs_block(packings, law, protocol.shear, protocol.pairs)
+    write_block(arguments.output, block)
+
+
 def release(arguments: Namespace) -> None:
     """Samples with their complex pairs → what becomes of their unstable states."""
     from grainmodes.cli.keeping import Keeping, fingerprint, of_run

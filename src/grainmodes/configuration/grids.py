@@ -25,6 +25,7 @@ class Observables:
     shear: bool = False
     unbracketed: bool = False
     close_up: bool = False
+    complex_pairs: bool = False
     release: bool = False
     variants: bool = False
 
@@ -41,6 +42,7 @@ class Observables:
             "shear": self.shear,
             "unbracketed": self.shear and self.unbracketed,
             "close_up": self.close_up,
+            "complex_pairs": self.complex_pairs,
             "release": self.release,
             "variants": self.variants,
         }
@@ -91,6 +93,7 @@ class Grid:
             "spectrum_hessian": asked.hessian and kt > 0.0,
             "probes": asked.probes and kt > 0.0,
             "shear": asked.shear,
+            "pairs": asked.complex_pairs and kt > 0.0,
             "release": asked.release and kt > 0.0,
             "variants": asked.variants and kt > 0.0,
         }

@@ -106,6 +106,7 @@ NEEDED = {
     "shear": "observables.shear: true",
     "unbracketed": "observables.unbracketed: true",
     "close_up": "observables.close_up: true",
+    "complex_pairs": "observables.complex_pairs: true",
     "release": "observables.release: true",
     "variants": "observables.variants: true",
     "friction": "these observables at a kt above 0",

@@ -9,6 +9,7 @@ from grainmodes.configuration.grids import Grid, drawable
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import Point, seed_blocks
 from grainmodes.parameters.law import ContactLaw, Rattlers
+from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import SpectrumChoices
@@ -43,6 +44,7 @@ class Scene:
                 Compression(**protocol["compression"]),
                 StepStrain(**protocol["step_strain"]),
                 Shear(**protocol["shear"]),
+                PairChoices(**protocol["pairs"]),
                 Release(
                     **protocol["release"] | {"dampings": tuple(protocol["release"]["dampings"])}
                 ),
@@ -121,6 +123,7 @@ class Scene:
             "shear": _part(law, protocol, "shear")
             | {"observables": {"shear": True, "unbracketed": unbracketed}},
             "close_up": _part(law, protocol, "shear"),
+            "pairs": _part(law, protocol, "shear", "pairs"),
             "release": _part(law, protocol, "release"),
             "variants": _part(law, protocol, "shear"),
             "ensemble": _part(law, protocol, *protocol) | {"study": self.study},

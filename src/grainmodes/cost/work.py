@@ -3,8 +3,8 @@
 Spectra follow the rules by which the stages choose a method: LAPACK up to a size; beyond, counts
 at the edges of bins, or windows of eigenpairs. ψ^R of a bin is counted in `substeps` cells: each at
 its end on the diagonal and at two corners, and pairs of cells once more at two, four counts a cell.
-p takes the eigenpairs of a bin, at most `modes_per_bin`. A shear is priced per step of 1e-4, a
-release per run of 80 / ω_i in steps of 0.1 t_0.
+p takes the eigenpairs of a bin, at most `modes_per_bin`. A shear is priced per step of 1e-4,
+complex pairs per state, a release per run of 80 / ω_i in steps of 0.1 t_0.
 """
 
 from __future__ import annotations
@@ -52,6 +52,8 @@ def work(
         return {stage: protocol.shear.strain / USUAL_STEP}
     if stage == "release":
         return {"release": _runs(protocol.release)}
+    if stage == "pairs":
+        return {"pairs": protocol.shear.strain / protocol.shear.step}
     return {stage: 1}
 
 

@@ -9,12 +9,12 @@ from grainmodes.dataset import (
     close_up,
     fields,
     packing,
+    pairs,
     probes,
     release,
     rigidity,
     shear,
     spectrum,
-    unstable,
     variants,
 )
 from grainmodes.dataset.variable import Variable
@@ -29,7 +29,7 @@ VARIABLES: dict[str, Variable] = {
         fields,
         shear,
         close_up,
-        unstable,
+        pairs,
         release,
         variants,
     )

@@ -1,8 +1,8 @@
 """All blocks of seeds and all observables of one point (n, phi, k_T), merged sample by sample.
 
 Each seed that stands in any block becomes one row, in the order of the seeds. A number is kept if
-there is one, or one per mode, bin, step strain, state, event or bracket, in a sample; coordinates
-of grains stay in the packings and in the files of their shear.
+there is one, or one per mode, bin, step strain, state, event, bracket or pair, in a sample;
+coordinates of grains stay in the packings and in the files of their shear.
 A sample is converged when every observable of the point has it converged; a seed that an
 observable lacks has there NaN (integers: 0), hence also converged = 0. Where two observables hold
 a name both, the first in the order of `STAGES` wins.
@@ -27,23 +27,16 @@ STAGES = (
     "spectrum_hessian",
     "probes",
     "shear",
+    "pairs",
     "release",
     "variants",
 )
 """Values of the attribute `stage`, in the order in which names win."""
 
 SERIES = (
-    "mode",
-    "edge",
-    "bin",
-    "probe",
-    "state",
-    "unbracketed_state",
-    "event",
-    "change",
-    "bracket",
-    "damping",
-    "variant_state",
+    *("mode", "edge", "bin", "probe", "state", "unbracketed_state", "event", "change", "bracket"),
+    *("pair_state", "life", "located", "exceptional_state", "followed_state", "product"),
+    *("damping", "variant_state"),
 )
 
 PER_SAMPLE = (("seed",), *(("seed", name) for name in SERIES))

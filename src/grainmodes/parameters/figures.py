@@ -111,6 +111,18 @@ FIGURES = {
         ("close_up",),
         "close_up",
     ),
+    "pair_birth": Figure(
+        "Two real eigenvalues become a complex pair (paper C, Fig. 1)",
+        ("complex_pairs", "friction"),
+    ),
+    "pair_overlap": Figure(
+        "Scalar products of eigenvectors around a complex pair (paper C, Figs. 2 and 3)",
+        ("complex_pairs", "friction"),
+    ),
+    "pair_exponent": Figure(
+        "Difference of two eigenvalues against the distance to gamma_c (paper C, Fig. 4)",
+        ("complex_pairs", "friction"),
+    ),
     "release_spirals": Figure(
         "Trajectories of the grains in a released complex pair (paper C, Fig. 5)",
         ("release", "friction"),

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import Rattlers
+from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import Shear, StepStrain
@@ -18,6 +19,7 @@ class Protocol:
     compression: Compression = field(default_factory=Compression)
     step_strain: StepStrain = field(default_factory=StepStrain)
     shear: Shear = field(default_factory=Shear)
+    pairs: PairChoices = field(default_factory=PairChoices)
     release: Release = field(default_factory=Release)
     rattlers: Rattlers = field(default_factory=Rattlers)
     spectrum: SpectrumChoices = field(default_factory=SpectrumChoices)

@@ -8,11 +8,8 @@ import claimed
 from grainmodes.claims import check, report
 from grainmodes.cli import main
 
-NAMES = [
-    *(f"A{number}" for number in range(1, 20)),
-    *(f"B{number}" for number in range(1, 11)),
-    *("C4", "C5", "C6", "C7", "C8", "C9"),
-]
+CLAIMED = {"A": 19, "B": 10, "C": 9}
+NAMES = [f"{paper}{number + 1}" for paper, count in CLAIMED.items() for number in range(count)]
 
 
 def test_reports_hold_every_claim(tmp_path):

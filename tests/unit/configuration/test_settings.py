@@ -12,7 +12,7 @@ from scenes import (
 )
 
 SPECTRA = {"spectrum", "spectrum_rattlers", "spectrum_hessian"}
-SHEARED = {"shear", "close_up"}
+SHEARED = {"shear", "close_up", "pairs"}
 STAGES = [
     *("compress", "rigidity", "step_strain", "fields", "probes", "release", "ensemble"),
     *sorted(SPECTRA | SHEARED),
@@ -28,6 +28,7 @@ DEPENDENCE = {
     "protocol.step_strain.strain": (1e-5, {"step_strain", "fields", "probes", "ensemble"}),
     "protocol.shear.strain": (0.2, SHEARED | {"ensemble"}),
     "protocol.release.kick": (0.0, {"release", "ensemble"}),
+    "protocol.pairs.located": (2, {"pairs", "ensemble"}),
     "protocol.spectrum.fineness": (1.0, SPECTRA | {"ensemble"}),
     "contact_law.normal": ("harmonic", set(STAGES)),
     "grid.seeds": (8, set()),

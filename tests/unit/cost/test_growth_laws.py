@@ -22,7 +22,7 @@ def test_a_law_is_a_power_of_n():
 
 def test_every_law_of_the_table_is_used():
     every = {"rigidity", "step_strain", "fields", "probes", "shear", "close_up", "release"}
-    every |= {"variants"}
+    every |= {"variants", "pairs"}
     used = {"trajectory", "pack"} | every
     for factorisation in ("superlu", "pardiso"):
         choices = SpectrumChoices(factorisation=factorisation)

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from grainmodes.claims.claim import Claim
-from grainmodes.claims.paper_c import release, variants
+from grainmodes.claims.paper_c import pairs, release, variants
 
 CLAIMS: tuple[Claim, ...] = (
+    pairs.born_under_shear,
+    pairs.square_root,
+    pairs.parallel_eigenvectors,
     release.spirals,
     release.growth,
     release.second_instability,
@@ -13,4 +16,4 @@ CLAIMS: tuple[Claim, ...] = (
     variants.smoothed_is_unstable,
     variants.sharp_is_stable,
 )
-"""C4 to C9, in this order."""
+"""C1 to C9, in this order."""

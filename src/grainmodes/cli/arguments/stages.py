@@ -22,6 +22,7 @@ def define(commands) -> None:
         _probes,
         _shear,
         _close_up,
+        _pairs,
         _release,
         _variants,
         _point,
@@ -101,6 +102,11 @@ def _shear(commands) -> None:
 def _close_up(commands) -> None:
     sentence = "The first event in the shear of the first of some packings, looked at closely."
     _response(commands, "close-up", "stages:close_up", sentence)
+
+
+def _pairs(commands) -> None:
+    sentence = "Complex pairs of eigenvalues along the shear of packings, born, followed, dead."
+    _response(commands, "pairs", "stages:pairs", sentence)
 
 
 def _release(commands) -> None:

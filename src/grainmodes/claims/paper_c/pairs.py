@@ -1,0 +1,140 @@
+"""Claims of paper C on the birth and death of complex pairs: C1 to C3.
+
+    symbol        name                                                         paper C
+    γ_c           Sample.points["strain"], by D = 0                            (20)
+    λ1 − λ2       the root of Sample.near["discriminant"]                      (21)
+    ⟨u1|u2⟩       Sample.near["product"]                                       Figs. 2 and 3
+
+Means over the exceptional points of a sample first, over the samples then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pandas as pd
+
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
+from grainmodes.claims.estimates import Estimate, mean
+from grainmodes.claims.samples import FEWEST, at, sizes
+from grainmodes.ensemble.exceptional import Sample, samples
+
+EXPONENT, TOLERANCE = 0.5, 0.01
+"""C (21), and how far a measured exponent may lie from it."""
+
+PARALLEL = 0.999
+"""Scalar product from which two eigenvectors are parallel; C's figures show less."""
+
+SHARE = 0.5
+"""Share of the samples in which a pair must have been born."""
+
+
+@claim("C1", unit="1")
+def born_under_shear(ensemble) -> Outcome:
+    """Complex pairs are born under quasistatic shear from states that have none (Fig. 1).
+
+    Pairs in the first state; share of the samples with a pair in any later state.
+
+    Criterion: no pair in the first state, a share above 0.5.
+    """
+    parts, notes = [], []
+    for of in sizes(ensemble, "pair_count"):
+        for point in of.points("pair_count"):
+            pairs = of.of("pair_count", *point)
+            where = f"N = {of.n}, {at(*point)}"
+            born = np.where(np.isfinite(pairs[:, 0]), np.nansum(pairs, axis=1) > 0.0, np.nan)
+            parts.append(Part(f"at first, {where}", mean(pairs[:, 0]), -0.5, 0.5))
+            parts.append(Part(f"share, {where}", mean(born), SHARE))
+            notes.append(f"At {where} the last state has {text(mean(_last(pairs)))} pairs.")
+    return Outcome(parts, " ".join(notes))
+
+
+def _last(pairs: np.ndarray) -> np.ndarray:
+    """Pairs in the last state of every sample."""
+    known = np.isfinite(pairs)
+    last = np.where(known.any(axis=1), known.cumsum(axis=1).argmax(axis=1), 0)
+    return np.take_along_axis(pairs, last[:, None], axis=1)[:, 0]
+
+
+@claim("C2", unit="1")
+def square_root(ensemble) -> Outcome:
+    """|λ1 − λ2| grows as |γ − γ_c|^(1/2) at births and at deaths, on both sides (Fig. 4).
+
+    Exponent by least squares, median over the coalescences of a sample.
+
+    Criterion: 0.49 to 0.51.
+    """
+    low, high = EXPONENT - TOLERANCE, EXPONENT + TOLERANCE
+    parts = []
+    for where, of in _grouped(ensemble):
+        for birth, event in ((1, "births"), (0, "deaths")):
+            for side in ("real", "pair"):
+                found = _over(of, lambda s, b=birth, k=side: _exponent(s, b, k))
+                if np.isfinite(found.error):
+                    parts.append(Part(f"{event}, {side}, {where}", found, low, high))
+    counted = sum(len(sample.points) for sample in samples(ensemble))
+    return Outcome(parts, f"Fitted at {counted} exceptional points.")
+
+
+def _exponent(sample: Sample, birth: int, side: str) -> float:
+    points = sample.points
+    return float(points.loc[points["birth"] == birth, f"exponent_{side}"].median())
+
+
+@claim("C3", unit="1")
+def parallel_eigenvectors(ensemble) -> Outcome:
+    """The scalar product of two real eigenvectors goes to 1 at γ_c (Figs. 2 and 3).
+
+    Taken to γ_c along a straight line through the two states with real modes nearest to it, mean
+    over the coalescences; 1 minus the product is proportional to |γ − γ_c|.
+
+    Criterion: above 0.999.
+    """
+    parts, notes = [], []
+    for where, of in _grouped(ensemble):
+        found = _over(of, _at_the_point)
+        if np.isfinite(found.error):
+            parts.append(Part(where, found, PARALLEL))
+            far = _over(of, lambda s: float(_real(s).groupby("of")["product"].last().mean()))
+            notes.append(f"At the farthest state, {where}, it is {text(far)}.")
+    return Outcome(parts, " ".join(notes))
+
+
+def _real(sample: Sample) -> pd.DataFrame:
+    """The states around γ_c with two real modes, |γ − γ_c| ascending."""
+    near = sample.near[sample.near["discriminant"] > 0.0]
+    return near.assign(size=near["distance"].abs()).sort_values("size")
+
+
+def _at_the_point(sample: Sample) -> float:
+    """The product at γ_c, mean over the coalescences with at least two states."""
+    pairs = [of.iloc[:2] for _, of in _real(sample).groupby("of") if len(of) > 1]
+    return float(np.mean([_extrapolated(*of["size"], *of["product"]) for of in pairs]))
+
+
+def _extrapolated(near: float, far: float, product: float, other: float) -> float:
+    """A straight line through two states, at distance 0."""
+    return (far * product - near * other) / (far - near)
+
+
+def _grouped(ensemble) -> Iterator[tuple[str, list[Sample]]]:
+    """The name of every point, and its samples with coalescences, where there are enough.
+
+    Raises:
+        NotAsked: the ensemble lacks them.
+    """
+    if "located_kind" not in ensemble:
+        raise NotAsked("located_kind, exceptional points of complex pairs")
+    groups: dict[tuple, list[Sample]] = {}
+    for sample in samples(ensemble):
+        place = sample.place
+        groups.setdefault((place["n"], place["phi"], place["kt"]), []).append(sample)
+    for (n, phi, kt), of in groups.items():
+        if len(of) >= FEWEST:
+            yield f"N = {n}, {at(phi, kt)}", of
+
+
+def _over(of: list[Sample], number: Callable[[Sample], float]) -> Estimate:
+    """Mean over the samples of a number; NaN leaves a sample out."""
+    return mean(np.array([number(sample) for sample in of]))

@@ -1,0 +1,105 @@
+"""Names of complex pairs along a quasistatic shear: states, lives of pairs, exceptional points.
+
+Series of several located points stand one after the other; `..._of` tells which point a number
+belongs to.
+"""
+
+from __future__ import annotations
+
+from grainmodes.dataset.variable import BLOCK, MODULUS, Variable
+
+STATE = ("seed", "pair_state")
+LIFE = ("seed", "life")
+LOCATED = ("seed", "located")
+NEAR = ("seed", "exceptional_state")
+PATH = ("seed", "followed_state")
+PRODUCT = ("seed", "product")
+CONTACT = ("seed", "contact")
+GRAINS = ("seed", "grain", "component")
+EIGENVALUE = f"{MODULUS} / m"
+RATE = "1 / t_0"
+KIND = "0: none; 1: coalescence; 2: contact change; 3: jump; 4: plane lost; 5: undecided"
+
+NAMES = {
+    # the states of the walk
+    "pair_state_count": Variable(
+        BLOCK, "i8", "1", "number of states in which pairs were looked for"
+    ),
+    "pair_strain": Variable(STATE, "f8", "1", "strain of a state; NaN: none"),
+    "pair_count": Variable(STATE, "f8", "1", "complex pairs of eigenvalues of J / M"),
+    "pair_count_jacobian": Variable(STATE, "f8", "1", "complex pairs of J; NaN: not counted"),
+    "pair_growth": Variable(STATE, "f8", RATE, "largest growth rate omega_i; NaN: no pair"),
+    "pair_frequency": Variable(STATE, "f8", RATE, "omega_r of the pair that grows fastest"),
+    "pair_condition": Variable(STATE, "f8", "1", "condition of its eigenvalue"),
+    "pair_dense": Variable(STATE, "i1", "1", "1 if LAPACK solved this state"),
+    # the pairs
+    "life_count": Variable(BLOCK, "i8", "1", "number of complex pairs that were born"),
+    "life_birth_before": Variable(LIFE, "f8", "1", "strain before the birth of a pair; NaN: none"),
+    "life_birth_after": Variable(LIFE, "f8", "1", "strain after the birth of a pair"),
+    "life_birth_kind": Variable(LIFE, "i1", "1", f"what its birth was; {KIND}"),
+    "life_death_before": Variable(LIFE, "f8", "1", "strain before its death; NaN: it lives"),
+    "life_death_after": Variable(LIFE, "f8", "1", "strain after its death; NaN: it lives"),
+    "life_death_kind": Variable(LIFE, "i1", "1", f"what its death was; {KIND}"),
+    "life_growth": Variable(LIFE, "f8", RATE, "largest growth rate omega_i of its states"),
+    # exceptional points
+    "located_count": Variable(BLOCK, "i8", "1", "number of births and deaths that were located"),
+    "located_life": Variable(LOCATED, "i4", "1", "number of the pair; -1: none"),
+    "located_birth": Variable(LOCATED, "i1", "1", "1: a birth; 0: a death"),
+    "located_kind": Variable(LOCATED, "i1", "1", f"what it was; {KIND}"),
+    "located_before": Variable(LOCATED, "f8", "1", "lower end of its bracket; NaN: none"),
+    "located_after": Variable(LOCATED, "f8", "1", "upper end of its bracket"),
+    "located_strain": Variable(
+        LOCATED, "f8", "1", "gamma_c: where (lambda_1 - lambda_2)^2 is 0; else the middle"
+    ),
+    "located_exponent_real": Variable(
+        LOCATED, "f8", "1", "exponent of |lambda_1 - lambda_2| where both are real; NaN: not fitted"
+    ),
+    "located_exponent_real_error": Variable(LOCATED, "f8", "1", "its standard error"),
+    "located_exponent_pair": Variable(
+        LOCATED, "f8", "1", "exponent of |lambda_1 - lambda_2| where they are a pair"
+    ),
+    "located_exponent_pair_error": Variable(LOCATED, "f8", "1", "its standard error"),
+    # states around them
+    "exceptional_of": Variable(NEAR, "i4", "1", "number of the located point; -1: none"),
+    "exceptional_distance": Variable(NEAR, "f8", "1", "strain - gamma_c of a state; NaN: none"),
+    "exceptional_sum": Variable(NEAR, "f8", EIGENVALUE, "lambda_1 + lambda_2 there"),
+    "exceptional_discriminant": Variable(
+        NEAR, "f8", f"({EIGENVALUE})^2", "(lambda_1 - lambda_2)^2 there, below 0 for a pair"
+    ),
+    "exceptional_product": Variable(NEAR, "f8", "1", "scalar product of the two eigenvectors"),
+    "exceptional_condition": Variable(NEAR, "f8", "1", "condition of the two eigenvalues"),
+    "exceptional_residual": Variable(
+        NEAR, "f8", "1", "residual of their plane, in units of the largest entry of J / M"
+    ),
+    # the two modes along the walk
+    "followed_of": Variable(PATH, "i4", "1", "number of the located point; -1: none"),
+    "followed_strain": Variable(PATH, "f8", "1", "strain of a state; NaN: none"),
+    "followed_real_1": Variable(PATH, "f8", EIGENVALUE, "real part of lambda_1"),
+    "followed_real_2": Variable(PATH, "f8", EIGENVALUE, "real part of lambda_2"),
+    "followed_imaginary": Variable(PATH, "f8", EIGENVALUE, "imaginary part of lambda_1"),
+    "followed_product": Variable(PATH, "f8", "1", "scalar product of the two eigenvectors"),
+    "product_strain": Variable(PRODUCT, "f8", "1", "strain of a state of few grains; NaN: none"),
+    "product_mode": Variable(PRODUCT, "i4", "1", "number of the mode that is looked at"),
+    "product_other": Variable(PRODUCT, "i4", "1", "number of another mode, from 0 by real part"),
+    "product_value": Variable(PRODUCT, "f8", "1", "scalar product of the two eigenvectors"),
+    # the state that grows fastest
+    "unstable_found": Variable(BLOCK, "i1", "1", "1 if a state had a complex pair"),
+    "unstable_strain": Variable(BLOCK, "f8", "1", "strain of the state with the largest omega_i"),
+    "unstable_fraction": Variable(
+        ("seed", "grain", "axis"), "i8", "2^-64 L", "grain position in that state"
+    ),
+    "unstable_rotation": Variable(("seed", "grain"), "f8", "d", "rotation l in that state"),
+    "unstable_contact_i": Variable(CONTACT, "i4", "1", "grain i of a contact; -1: none"),
+    "unstable_contact_j": Variable(CONTACT, "i4", "1", "grain j of a contact; -1: none"),
+    "unstable_slip": Variable(CONTACT, "f8", "d", "tangential displacement of a contact"),
+    "unstable_eigenvalue_real": Variable(BLOCK, "f8", EIGENVALUE, "lambda_r of its fastest pair"),
+    "unstable_eigenvalue_imag": Variable(BLOCK, "f8", EIGENVALUE, "lambda_i of its fastest pair"),
+    "unstable_condition": Variable(BLOCK, "f8", "1", "condition of this eigenvalue"),
+    "unstable_residual": Variable(
+        BLOCK, "f8", "1", "residual of the pair's plane, in units of the largest entry of J / M"
+    ),
+    "unstable_mode_real": Variable(
+        GRAINS, "f8", "1", "real part of its eigenvector q of J / M, (x, y, l), norm 1"
+    ),
+    "unstable_mode_imag": Variable(GRAINS, "f8", "1", "imaginary part of its eigenvector q"),
+}

@@ -1,0 +1,23 @@
+"""How complex pairs of eigenvalues are found and followed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+DETECTIONS = ("carried", "dense")
+
+
+@dataclass(frozen=True)
+class PairChoices:
+    """Complex pairs along a quasistatic shear (C, Sec. V).
+
+    `detection`: "carried" takes the eigenvectors of the state before to a nearly diagonal J,
+    "dense" solves every state anew. The first `located` births and as many deaths are bracketed to
+    `bracket`, and their two modes are followed over `around` steps to both sides.
+    """
+
+    detection: str = "carried"
+    located: int = 4
+    bracket: float = 1e-9
+    around: int = 20
+    jacobian: bool = False

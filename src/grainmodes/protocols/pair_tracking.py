@@ -1,0 +1,249 @@
+"""Complex pairs along a quasistatic shear: born, followed, dead. C, Sec. V A.
+
+From a frictionless balance, whose J is symmetric, the strain grows in steps Δγ. In every balance
+the pairs are found and each is looked for among those of the step before (`pairs.following`). One
+that was not there is born in this step; one that is no longer there has died in it.
+
+| a birth or death is | where                                                                  |
+| ------------------- | ---------------------------------------------------------------------- |
+| a coalescence       | the contacts stayed what they were: J is analytic in γ, and two real    |
+|                     | eigenvalues became a pair, or a pair two real ones                     |
+| a jump              | the balance did not move on continuously                               |
+| undecided           | contacts changed in the step, and it was not located                   |
+
+The first ones are located (`exceptional_points`), which replaces this word by a measured one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import NamedTuple, Protocol
+
+import numpy as np
+import scipy.sparse as sparse
+
+from grainmodes.packing import Packing
+from grainmodes.pairs.carried import Carried
+from grainmodes.pairs.definition import Pairs, dense_pairs, mass_weighted, on_all_grains
+from grainmodes.pairs.following import matched
+from grainmodes.pairs.plane import plane_of
+from grainmodes.parameters.pairs import PairChoices
+from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.exceptional_points import (
+    COALESCENCE,
+    JUMP,
+    LOST,
+    NEVER,
+    UNDECIDED,
+    ExceptionalPoint,
+    Side,
+    located,
+)
+from grainmodes.protocols.quasistatic import first_balance, step_to
+from grainmodes.protocols.sheared_state import network_changes
+from grainmodes.relaxation.balance import Balance
+
+
+class Detector(Protocol):
+    """Finds the complex pairs of one matrix after the other."""
+
+    dense: bool
+    """Whether LAPACK solved the last one."""
+
+    def find(self, matrix: sparse.csr_array) -> Pairs:
+        """Every complex pair of a matrix (M, M)."""
+
+
+class ByLapack:
+    """The definition: every matrix solved anew."""
+
+    dense = True
+
+    def find(self, matrix: sparse.csr_array) -> Pairs:
+        """Every complex pair of a matrix (M, M)."""
+        return dense_pairs(matrix)
+
+
+DETECTORS: dict[str, type[Detector]] = {"carried": Carried, "dense": ByLapack}
+"""How pairs are found, by the name of the choice."""
+
+
+class Seen(NamedTuple):
+    """A state with its pairs, their vectors on all grains."""
+
+    balance: Balance
+    pairs: Pairs
+
+    @property
+    def strain(self) -> float:
+        """γ."""
+        return self.balance.packing.strain
+
+    def side(self, place: int) -> Side:
+        """The state with the plane of one of its pairs."""
+        held = np.repeat(self.balance.held, 3)
+        right, left = (
+            np.stack([of[held, place].real, of[held, place].imag], axis=1)
+            for of in (self.pairs.right, self.pairs.left)
+        )
+        return Side(self.balance, plane_of(mass_weighted(self.balance), right, left))
+
+
+@dataclass
+class Life:
+    """A pair from its birth to its death; `largest` is the largest ω_i of all its states."""
+
+    birth: tuple[float, float]
+    birth_kind: int
+    largest: float = 0.0
+    death: tuple[float, float] = (np.nan, np.nan)
+    death_kind: int = NEVER
+
+
+class Located(NamedTuple):
+    """A birth or death looked at closely: whose it is, and a state in which the pair is there."""
+
+    life: int
+    born: bool
+    point: ExceptionalPoint
+    pair: Side
+
+
+class Count(NamedTuple):
+    """One state of the walk in numbers: pairs of M⁻¹J and of J, the one of the largest ω_i.
+
+    `of_jacobian` is NaN where it is not asked for; without a pair `fastest` is.
+    """
+
+    strain: float
+    pairs: int
+    of_jacobian: float
+    fastest: complex
+    condition: float
+    dense: bool
+
+
+class Unstable(NamedTuple):
+    """The state of the largest ω_i so far and where its pair stands among the others."""
+
+    growth: float
+    state: Seen
+    place: int
+
+
+@dataclass
+class PairWalk:
+    """How far a shear has come, and every pair on the way.
+
+    `detector` looks for the pairs of K, `of_jacobian`, if there is one, for those of J.
+    """
+
+    now: Seen
+    choices: Shear
+    asked: PairChoices
+    detector: Detector
+    of_jacobian: Detector | None
+    counts: list[Count] = field(default_factory=list)
+    lives: list[Life] = field(default_factory=list)
+    alive: list[int] = field(default_factory=list)
+    located: list[Located] = field(default_factory=list)
+    states: list[Balance] = field(default_factory=list)
+    unstable: Unstable | None = None
+
+    @classmethod
+    def start(cls, packing: Packing, interaction, choices: Shear, asked: PairChoices) -> PairWalk:
+        """A walk from a packing in balance.
+
+        Raises:
+            ArithmeticError: the packing has no stable balance.
+        """
+        balance = first_balance(packing, interaction, choices)
+        detector, other = (DETECTORS[asked.detection]() for _ in range(2))
+        of_jacobian = other if asked.jacobian else None
+        walk = cls(_seen(balance, detector), choices, asked, detector, of_jacobian)
+        walk.lives = [Life((np.nan, balance.packing.strain), NEVER) for _ in walk.now.pairs.value]
+        walk.alive = list(range(len(walk.lives)))
+        walk._count()
+        return walk
+
+    @property
+    def done(self) -> bool:
+        """Whether the last strain is reached."""
+        return len(self.counts) > round(self.choices.strain / self.choices.step)
+
+    def advance(self) -> None:
+        """One step of the strain.
+
+        Raises:
+            ArithmeticError: no balance was found, or the eigensolver failed.
+        """
+        strain = len(self.counts) * self.choices.step
+        balance, jumped = step_to(strain, self.now.balance, self.choices)
+        before, self.now = self.now, _seen(balance, self.detector)
+        self._follow(before, jumped)
+        self._count()
+
+    def _follow(self, before: Seen, jumped: bool) -> None:
+        """Hand every life on to its pair in the new state; end some and begin some."""
+        common = dict(matched(before.pairs, self.now.pairs))
+        changed = any(network_changes(before.balance, self.now.balance))
+        kind = JUMP if jumped else UNDECIDED if changed else COALESCENCE
+        step = before.strain, self.now.strain
+        heirs = {common[old]: life for old, life in enumerate(self.alive) if old in common}
+        for old, life in enumerate(self.alive):
+            if old not in common:
+                self.lives[life].death, self.lives[life].death_kind = step, kind
+                self._locate(life, before.side(old), self.now.balance, jumped)
+        for new in range(len(self.now.pairs.value)):
+            if new not in heirs:
+                heirs[new] = len(self.lives)
+                self.lives.append(Life(step, kind))
+                self._locate(heirs[new], self.now.side(new), before.balance, jumped)
+        self.alive = [heirs[new] for new in range(len(self.now.pairs.value))]
+
+    def _locate(self, life: int, pair: Side, other: Balance, jumped: bool) -> None:
+        """Look at a birth or death closely, if it is one of the first."""
+        born = other.packing.strain < pair.strain
+        known = sum(one.born == born for one in self.located)
+        if jumped or known >= self.asked.located:
+            return
+        try:
+            point = located(pair, other, self.choices, self.asked.bracket)
+        except ArithmeticError:
+            ends = sorted((pair.strain, other.packing.strain))
+            point = ExceptionalPoint(LOST, *ends, float(np.mean(ends)))
+        self.located.append(Located(life, born, point, pair))
+        record, ends = self.lives[life], (point.below, point.above)
+        if born:
+            record.birth, record.birth_kind = ends, point.kind
+        else:
+            record.death, record.death_kind = ends, point.kind
+
+    def _count(self) -> None:
+        """Record the state."""
+        self.states.append(self.now.balance)
+        pairs = self.now.pairs
+        growth = pairs.growth
+        for life, rate in zip(self.alive, growth.tolist(), strict=True):
+            self.lives[life].largest = max(self.lives[life].largest, rate)
+        if not len(growth):
+            self.counts.append(self._in_numbers(complex(np.nan, np.nan), np.nan))
+            return
+        place = int(np.argmax(growth))
+        value, condition = complex(pairs.value[place]), float(pairs.condition[place])
+        self.counts.append(self._in_numbers(value, condition))
+        if self.unstable is None or growth[place] > self.unstable.growth:
+            self.unstable = Unstable(float(growth[place]), self.now, place)
+
+    def _in_numbers(self, fastest: complex, condition: float) -> Count:
+        of_jacobian = np.nan
+        if self.of_jacobian:
+            of_jacobian = len(self.of_jacobian.find(self.now.balance.matrix.tocsr()).value)
+        pairs, dense = len(self.now.pairs.value), self.detector.dense
+        return Count(self.now.strain, pairs, of_jacobian, fastest, condition, dense)
+
+
+def _seen(balance: Balance, detector: Detector) -> Seen:
+    found = detector.find(mass_weighted(balance))
+    right, left = (on_all_grains(of, balance.held) for of in (found.right, found.left))
+    return Seen(balance, Pairs(found.value, right, left))

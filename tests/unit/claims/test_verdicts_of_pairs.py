@@ -1,0 +1,83 @@
+"""Claims C1 to C3 hold where they should, and fall, alone, where one number is doctored."""
+
+import numpy as np
+import pytest
+
+import claimed
+import claimed_pairs
+from grainmodes.claims import CLAIMS, check, paper_c
+from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED
+
+NAMES = ("C1", "C2", "C3")
+
+
+def pairs_from_the_start(ensemble):
+    ensemble["pair_count"] = ensemble["pair_count"] + 1.0
+
+
+def no_pairs(ensemble):
+    ensemble["pair_count"] = 0.0 * ensemble["pair_count"]
+
+
+def linear(ensemble):
+    ensemble["located_exponent_real"] = 2.0 * ensemble["located_exponent_real"]
+
+
+def linear_as_a_pair(ensemble):
+    ensemble["located_exponent_pair"] = 2.0 * ensemble["located_exponent_pair"]
+
+
+def not_parallel(ensemble):
+    ensemble["exceptional_product"] = 0.9 * ensemble["exceptional_product"]
+
+
+DOCTORED = [
+    ("C1", pairs_from_the_start),
+    ("C1", no_pairs),
+    ("C2", linear),
+    ("C2", linear_as_a_pair),
+    ("C3", not_parallel),
+]
+
+
+def verdicts(ensemble, claims=paper_c.CLAIMS):
+    return {verdict.claim: verdict for verdict in check(ensemble, claims)}
+
+
+def test_the_claims_of_three_papers_stand_in_one_table():
+    found = verdicts(claimed_pairs.ensemble(), CLAIMS)
+    assert [name for name in found if name.startswith("C")][: len(NAMES)] == list(NAMES)
+    assert {found[name].verdict for name in NAMES} == {HOLDS}
+
+
+@pytest.mark.parametrize(("name", "doctor"), DOCTORED)
+def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
+    ensemble = claimed_pairs.ensemble()
+    doctor(ensemble)
+    found = verdicts(ensemble)
+    fallen = {n: found[n].verdict for n in NAMES if found[n].verdict != HOLDS}
+    assert fallen == {name: CONTRADICTED}
+
+
+def test_the_product_is_taken_to_the_point_itself():
+    """At the nearest states it is 1 − 1e-2; a straight line takes it to 1."""
+    ensemble = claimed_pairs.ensemble()
+    steeper = 1.0 - 1e4 * (1.0 - ensemble["exceptional_product"])
+    ensemble["exceptional_product"] = steeper
+    assert verdicts(ensemble)["C3"].verdict == HOLDS
+
+
+def test_what_the_ensemble_lacks_is_not_asked_and_named():
+    found = verdicts(claimed.ensemble())
+    assert {found[name].verdict for name in NAMES} == {NOT_ASKED}
+    assert "pair_count" in found["C1"].explanation
+    assert "located_kind" in found["C2"].explanation
+
+
+def test_other_kinds_than_coalescences_are_left_out():
+    ensemble = claimed_pairs.ensemble()
+    for name in ("located_kind", "located_exponent_real"):
+        ensemble[name][..., 0] = np.nan if "exponent" in name else 2.0
+    found = verdicts(ensemble)["C2"]
+    assert found.verdict == HOLDS
+    assert "births" not in found.explanation

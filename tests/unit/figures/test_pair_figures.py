@@ -1,0 +1,62 @@
+"""Figures of complex pairs against the closed form from which their ensemble was made."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import synthetic
+from grainmodes.ensemble import open_ensemble
+from grainmodes.ensemble.exceptional import samples
+from grainmodes.figures import pair_birth, pair_exponent, pair_overlap
+from grainmodes.figures.selection import Options
+
+
+@pytest.fixture(scope="module")
+def paired(tmp_path_factory):
+    """Two samples each of 8 and 16 grains, and of an area fraction at which none is jammed."""
+    stages = ("packings", "pairs")
+    folder = tmp_path_factory.mktemp("paired")
+    path = synthetic.ensemble(folder, (8, 16), (0.83, 0.9), (1.0,), seeds=2, stages=stages)
+    with open_ensemble(path) as dataset:
+        yield dataset
+
+
+def test_samples_know_their_points_and_the_states_around_them(paired):
+    found = samples(paired)
+    assert [(s.place["n"], s.place["seed"]) for s in found] == [(8, 0), (8, 1), (16, 0), (16, 1)]
+    one = found[0]
+    assert one.points["strain"].tolist() == [4e-3, 8e-3]
+    assert len(one.near) == 16
+    assert len(one.products) == 4 * 13
+    assert found[2].products.empty
+
+
+def test_a_birth_is_shown_from_two_real_modes_to_a_pair(paired):
+    table = pair_birth.table(paired, Options())
+    assert set(table["n"]) == {16}
+    real = table["strain"] <= 4e-3
+    assert np.all(table.loc[real, "imaginary"] == 0.0)
+    inside = (table["strain"] > 4e-3) & (table["strain"] < 7.9e-3)
+    assert np.all(table.loc[inside, "imaginary"] > 0.0)
+    assert_allclose(table.loc[inside, "real_1"], table.loc[inside, "real_2"])
+
+
+def test_scalar_products_are_those_of_few_grains_and_of_a_pair(paired):
+    table = pair_overlap.table(paired, Options(seed=1))
+    few, pair = table[table["mode"].notna()], table[table["mode"].isna()]
+    assert (set(few["n"]), set(pair["n"]), set(pair["seed"])) == ({8}, {16}, {1})
+    assert set(few.loc[few["other"] != 4, "product"]) == {0.1}
+    assert pair["product"].max() == 1.0
+
+
+def test_differences_grow_as_the_root_of_the_distance(paired):
+    table = pair_exponent.table(paired, Options())
+    assert set(table["n"]) == {8, 16}
+    assert_allclose(table["difference"], 0.1 * np.sqrt(table["distance"]))
+    assert set(table.loc[table["birth"] == 1, "of"]) == {0}
+    assert pair_exponent.table(paired, Options(n=8))["n"].unique().tolist() == [8]
+
+
+def test_a_value_that_no_sample_has_is_named(paired):
+    with pytest.raises(ValueError, match=r"seed = 5: of this ensemble, the figure can show 0, 1"):
+        pair_birth.table(paired, Options(seed=5))
