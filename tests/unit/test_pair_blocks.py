@@ -90,6 +90,13 @@ def test_lapack_finds_the_same_pairs(packing, found):
     assert found.variables["pair_dense"][0].sum() < 10
 
 
+def test_the_condition_of_the_fastest_pair_is_that_of_lapack(packing, found):
+    dense = pairs_block(packings(packing), LAW, SHEAR, replace(ASKED, detection="dense"))
+    ours, theirs = (block.variables["pair_condition"] for block in (found, dense))
+    assert (ours[np.isfinite(ours)] > 1.0).all()
+    assert_allclose(ours[:1], theirs, rtol=1e-6)
+
+
 def test_the_state_that_grows_fastest_is_whole(packing, found):
     values = {name: array[0] for name, array in found.variables.items()}
     assert values["unstable_found"] == 1

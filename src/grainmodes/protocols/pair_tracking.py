@@ -26,7 +26,7 @@ from grainmodes.packing import Packing
 from grainmodes.pairs.carried import Carried
 from grainmodes.pairs.definition import Pairs, dense_pairs, mass_weighted, on_all_grains
 from grainmodes.pairs.following import matched
-from grainmodes.pairs.plane import plane_of
+from grainmodes.pairs.plane import SETTLED, plane_near, plane_of
 from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.exceptional_points import (
@@ -112,7 +112,8 @@ class Located(NamedTuple):
 class Count(NamedTuple):
     """One state of the walk in numbers: pairs of M⁻¹J and of J, the one of the largest ω_i.
 
-    `of_jacobian` is NaN where it is not asked for; without a pair `fastest` is.
+    `of_jacobian` is NaN where it is not asked for; without a pair `fastest` is. `condition` is NaN
+    where its eigenvectors did not settle.
     """
 
     strain: float
@@ -230,10 +231,23 @@ class PairWalk:
             self.counts.append(self._in_numbers(complex(np.nan, np.nan), np.nan))
             return
         place = int(np.argmax(growth))
-        value, condition = complex(pairs.value[place]), float(pairs.condition[place])
-        self.counts.append(self._in_numbers(value, condition))
+        self.counts.append(self._in_numbers(*self._sharpened(place)))
         if self.unstable is None or growth[place] > self.unstable.growth:
             self.unstable = Unstable(float(growth[place]), self.now, place)
+
+    def _sharpened(self, place: int) -> tuple[complex, float]:
+        """λ of a pair and its condition to the last digits; NaN where its plane does not settle.
+
+        Vectors that were carried on tell that a pair is there, but not well how parallel it is.
+        """
+        side = self.now.side(place)
+        try:
+            plane = plane_near(mass_weighted(side.balance), side.plane)
+        except ArithmeticError:
+            return complex(self.now.pairs.value[place]), np.nan
+        if plane.residual > SETTLED or plane.discriminant > 0.0:
+            return complex(self.now.pairs.value[place]), np.nan
+        return complex(plane.values[0]), plane.condition
 
     def _in_numbers(self, fastest: complex, condition: float) -> Count:
         of_jacobian = np.nan
