@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -24,8 +25,10 @@ from grainmodes.kernels.laws import Hertz, interaction
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import checkpoints_up_to, phi_at_step
 from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.compression import advanced, balanced, placed
+from grainmodes.protocols.pair_tracking import PairWalk
 from grainmodes.protocols.shear import Walk
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
@@ -172,6 +175,30 @@ def all_pairs(n: int) -> float:
 def weakly_frictional(n: int):
     """The eigenproblem at φ = 0.90, k_T/k_N = 1e-4."""
     return problem(balanced_at(n, 0.9), interaction(ContactLaw(kt=1e-4)))
+
+
+def pairs_along(n: int, detection: str, strain: float = 2e-3) -> float:
+    """Complex pairs of every state of a shear in steps of 1e-4, C's grains and law, μ = 10."""
+    rule = interaction(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, 10.0))
+    packing = replace(balanced_at(n, 0.9), mass=np.ones(n))
+    choices = Shear(strain, force_tolerance=5e-14)
+    walk = PairWalk.start(packing, rule, choices, PairChoices(detection, located=0))
+
+    def along():
+        while not walk.done:
+            walk.advance()
+
+    return cpu(along)
+
+
+def pairs_carried(n: int) -> float:
+    """From the eigenvectors of the state before."""
+    return pairs_along(n, "carried")
+
+
+def pairs_by_lapack(n: int) -> float:
+    """By a dense general eigensolve at every state."""
+    return pairs_along(n, "dense")
 
 
 HARMONIC = interaction(ContactLaw("harmonic", "elastic", 1.0))
