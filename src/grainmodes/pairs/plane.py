@@ -71,6 +71,11 @@ class Plane(NamedTuple):
         return self.right @ _kernels(self.block, self.values)
 
     @property
+    def left_vector(self) -> np.ndarray:
+        """v1, (M,) complex, with v1ᴴ K = λ1 v1ᴴ; of any length."""
+        return self.left @ _kernels(self.block.T, self.values[:1].conj())[:, 0]
+
+    @property
     def product(self) -> float:
         """C's scalar product |Σ u1_j u2_j| of the two eigenvectors."""
         one, two = _kernels(self.block, self.values).T

@@ -1,0 +1,67 @@
+"""Complex pairs from the eigenvectors of the symmetric part: those of LAPACK."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sparse
+
+from grainmodes.kernels.laws import interaction
+from grainmodes.pairs import from_symmetric
+from grainmodes.pairs.definition import dense_pairs, mass_weighted
+from grainmodes.pairs.from_symmetric import eigenvectors, pairs_from_symmetric
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.quasistatic import first_balance, step_to
+from specimens import reference
+
+CHOICES = Shear(step=1e-3, smallest_step=1e-3, force_tolerance=5e-14)
+
+
+def sheared(coefficient: float) -> sparse.csr_array:
+    """K of 64 grains of mass 1 at γ = 0.02."""
+    rule = interaction(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, coefficient))
+    packing = reference("hertz_n64_phi0.900_seed1")[1]
+    now = first_balance(replace(packing, mass=np.ones(packing.n)), rule, CHOICES)
+    for step in range(1, 21):
+        now, _ = step_to(1e-3 * step, now, CHOICES)
+    return mass_weighted(now)
+
+
+def translations(size: int) -> np.ndarray:
+    null = np.zeros((size, 2))
+    null[0::3, 0] = null[1::3, 1] = np.sqrt(3.0 / size)
+    return null
+
+
+@pytest.mark.parametrize("coefficient", [0.5, 10.0])
+def test_the_pairs_are_those_of_lapack(coefficient):
+    matrix = sheared(coefficient)
+    found = pairs_from_symmetric(matrix, translations(matrix.shape[0]))
+    expected = dense_pairs(matrix)
+    assert len(expected.value) > 0
+    np.testing.assert_allclose(found.value, expected.value, atol=1e-12)
+    np.testing.assert_allclose(found.condition, expected.condition, rtol=1e-6)
+    residual = matrix @ found.right - found.right * found.value
+    assert np.abs(residual).max() < 1e-12
+    left = matrix.T @ found.left.conj() - found.left.conj() * found.value
+    assert np.abs(left).max() < 1e-11
+
+
+def test_windows_give_the_eigenvectors_of_the_symmetric_part(monkeypatch):
+    matrix = sheared(10.0)
+    symmetric, null = 0.5 * (matrix + matrix.T), translations(matrix.shape[0])
+    dense, _ = eigenvectors(symmetric, null)
+    monkeypatch.setattr(from_symmetric, "DENSE_UP_TO", 0)
+    values, vectors = eigenvectors(symmetric, null)
+    np.testing.assert_allclose(values, dense, atol=1e-12)
+    product = vectors.T.astype(float) @ (symmetric @ vectors.astype(float))
+    np.testing.assert_allclose(product, np.diag(values), atol=1e-5)
+    through = pairs_from_symmetric(matrix, null)
+    np.testing.assert_allclose(through.value, dense_pairs(matrix).value, atol=1e-12)
+
+
+def test_a_symmetric_matrix_has_no_pairs():
+    matrix = sheared(10.0)
+    found = pairs_from_symmetric(0.5 * (matrix + matrix.T).tocsr(), translations(matrix.shape[0]))
+    assert len(found.value) == 0 and found.right.shape == (matrix.shape[0], 0)
