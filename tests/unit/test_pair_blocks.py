@@ -90,6 +90,13 @@ def test_lapack_finds_the_same_pairs(packing, found):
     assert found.variables["pair_dense"][0].sum() < 10
 
 
+def test_the_symmetric_part_leads_to_the_same_pairs(packing, found):
+    asked = replace(ASKED, detection="symmetric")
+    other = pairs_block(packings(packing), LAW, SHEAR, asked).variables
+    assert np.array_equal(other["pair_count"][0], found.variables["pair_count"][0])
+    assert_allclose(other["pair_growth"], found.variables["pair_growth"][:1], atol=1e-6)
+
+
 def test_the_condition_of_the_fastest_pair_is_that_of_lapack(packing, found):
     dense = pairs_block(packings(packing), LAW, SHEAR, replace(ASKED, detection="dense"))
     ours, theirs = (block.variables["pair_condition"] for block in (found, dense))

@@ -42,8 +42,8 @@ class Carried:
         self._vectors = np.zeros((0, 0), np.float32)
         self.dense = True
 
-    def find(self, matrix: sparse.csr_array) -> Pairs:
-        """Every complex pair of a matrix (M, M).
+    def find(self, matrix: sparse.csr_array, null: np.ndarray) -> Pairs:
+        """Every complex pair of a matrix (M, M); its zero modes are carried like all others.
 
         Raises:
             numpy.linalg.LinAlgError: the dense eigensolver did not converge.

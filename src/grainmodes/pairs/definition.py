@@ -54,6 +54,13 @@ def mass_weighted(balance: Balance) -> sparse.csr_array:
     return (sparse.diags_array(scale) @ balance.matrix @ sparse.diags_array(scale)).tocsr()
 
 
+def translations(mass: np.ndarray) -> np.ndarray:
+    """The two zero modes M^(1/2) (1, 0, 0), M^(1/2) (0, 1, 0) of K, (3N, 2), orthonormal."""
+    null = np.zeros((3 * len(mass), 2))
+    null[0::3, 0] = null[1::3, 1] = np.sqrt(mass / mass.sum())
+    return null
+
+
 def dense_pairs(matrix: sparse.csr_array) -> Pairs:
     """Every complex pair by LAPACK: the definition.
 

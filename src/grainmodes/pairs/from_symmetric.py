@@ -99,7 +99,8 @@ def _candidates(values: np.ndarray) -> np.ndarray:
     """Where two eigenvalues are a pair, or two real ones may be one."""
     pair = values.imag > REAL
     real = np.abs(values.imag) <= REAL
-    close = real[:-1] & real[1:] & (np.abs(np.diff(values.real)) < CLOSE)
+    moving = np.abs(values[:-1]) > CLOSE  # the translations are no pair
+    close = moving & real[:-1] & real[1:] & (np.abs(np.diff(values.real)) < CLOSE)
     return np.flatnonzero(pair | np.append(close, False))
 
 
@@ -109,7 +110,10 @@ def _settled(matrix: sparse.csr_array, starts: list[Plane]) -> Pairs:
     for start in starts:
         try:
             plane = plane_near(matrix, start)
-        except ArithmeticError:
+        except (
+            ArithmeticError,
+            RuntimeError,
+        ):  # lost, or its shift an eigenvalue to the last digit
             continue
         value = complex(plane.values[0])
         pair = plane.residual <= SETTLED and value.imag > REAL

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-DETECTIONS = ("carried", "dense")
+DETECTIONS = ("carried", "dense", "symmetric")
 
 
 @dataclass(frozen=True)
@@ -12,7 +12,8 @@ class PairChoices:
     """Complex pairs along a quasistatic shear (C, Sec. V).
 
     `detection`: "carried" takes the eigenvectors of the state before to a nearly diagonal J,
-    "dense" solves every state anew. The first `located` births and as many deaths are bracketed to
+    "dense" solves every state anew, "symmetric" its symmetric part, for thousands of grains.
+    The first `located` births and as many deaths are bracketed to
     `bracket`, and their two modes are followed over `around` steps to both sides.
     """
 

@@ -24,8 +24,15 @@ import scipy.sparse as sparse
 
 from grainmodes.packing import Packing
 from grainmodes.pairs.carried import Carried
-from grainmodes.pairs.definition import Pairs, dense_pairs, mass_weighted, on_all_grains
+from grainmodes.pairs.definition import (
+    Pairs,
+    dense_pairs,
+    mass_weighted,
+    on_all_grains,
+    translations,
+)
 from grainmodes.pairs.following import matched
+from grainmodes.pairs.from_symmetric import pairs_from_symmetric
 from grainmodes.pairs.plane import SETTLED, plane_near, plane_of
 from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
@@ -50,8 +57,8 @@ class Detector(Protocol):
     dense: bool
     """Whether LAPACK solved the last one."""
 
-    def find(self, matrix: sparse.csr_array) -> Pairs:
-        """Every complex pair of a matrix (M, M)."""
+    def find(self, matrix: sparse.csr_array, null: np.ndarray) -> Pairs:
+        """Every complex pair of a matrix (M, M) with the zero modes `null` (M, 2), orthonormal."""
 
 
 class ByLapack:
@@ -59,12 +66,30 @@ class ByLapack:
 
     dense = True
 
-    def find(self, matrix: sparse.csr_array) -> Pairs:
+    def find(self, matrix: sparse.csr_array, null: np.ndarray) -> Pairs:
         """Every complex pair of a matrix (M, M)."""
         return dense_pairs(matrix)
 
 
-DETECTORS: dict[str, type[Detector]] = {"carried": Carried, "dense": ByLapack}
+class FromSymmetricPart:
+    """Every matrix by its symmetric part: for states too large for LAPACK."""
+
+    dense = False
+
+    def find(self, matrix: sparse.csr_array, null: np.ndarray) -> Pairs:
+        """Every complex pair of a matrix (M, M) that is found.
+
+        Raises:
+            ArithmeticError: the eigenvectors of the symmetric part are incomplete.
+        """
+        return pairs_from_symmetric(matrix, null)
+
+
+DETECTORS: dict[str, type[Detector]] = {
+    "carried": Carried,
+    "dense": ByLapack,
+    "symmetric": FromSymmetricPart,
+}
 """How pairs are found, by the name of the choice."""
 
 
@@ -250,14 +275,15 @@ class PairWalk:
         return complex(plane.values[0]), plane.condition
 
     def _in_numbers(self, fastest: complex, condition: float) -> Count:
-        of_jacobian = np.nan
+        of_jacobian, balance = np.nan, self.now.balance
         if self.of_jacobian:
-            of_jacobian = len(self.of_jacobian.find(self.now.balance.matrix.tocsr()).value)
+            matrix, null = balance.matrix.tocsr(), translations(np.ones(balance.backbone.n))
+            of_jacobian = len(self.of_jacobian.find(matrix, null).value)
         pairs, dense = len(self.now.pairs.value), self.detector.dense
         return Count(self.now.strain, pairs, of_jacobian, fastest, condition, dense)
 
 
 def _seen(balance: Balance, detector: Detector) -> Seen:
-    found = detector.find(mass_weighted(balance))
+    found = detector.find(mass_weighted(balance), translations(balance.backbone.mass))
     right, left = (on_all_grains(of, balance.held) for of in (found.right, found.left))
     return Seen(balance, Pairs(found.value, right, left))
