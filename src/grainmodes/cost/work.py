@@ -3,7 +3,8 @@
 Spectra follow the rules by which the stages choose a method: LAPACK up to a size; beyond, counts
 at the edges of bins, or windows of eigenpairs. ψ^R of a bin is counted in `substeps` cells: each at
 its end on the diagonal and at two corners, and pairs of cells once more at two, four counts a cell.
-p takes the eigenpairs of a bin, at most `modes_per_bin`. A shear is priced per step of 1e-4, complex pairs per state.
+p takes the eigenpairs of a bin, at most `modes_per_bin`. A shear is priced per step of 1e-4,
+complex pairs per state.
 """
 
 from __future__ import annotations
