@@ -12,7 +12,8 @@ to the eigenvectors, told by the coupling, and each pass takes it to its square:
 
 | coupling         | then                                                                  |
 | ---------------- | --------------------------------------------------------------------- |
-| below `ENOUGH`   | the pairs are those of this pass                                      |
+| below `ENOUGH`   | the pairs are those of this pass, once those are sharpened that       |
+|                  | nearly meet (`sharpening`)                                            |
 | above            | another pass from the new vectors, `MOST` at most, then LAPACK        |
 
 Grains that come to carry load or cease to change the size of K: then, too, LAPACK solves it.
@@ -21,14 +22,15 @@ Grains that come to carry load or cease to change the size of K: then, too, LAPA
 from __future__ import annotations
 
 import numpy as np
-import scipy.linalg
 import scipy.sparse as sparse
 
+from grainmodes.pairs.basis import Basis
 from grainmodes.pairs.definition import Pairs, dense_eigenpairs, selected
 from grainmodes.pairs.nearly_diagonal import NearlyDiagonal, Solved, solved
+from grainmodes.pairs.sharpening import nearly_meeting, sharpened
 from grainmodes.stability import REAL
 
-ENOUGH = 0.1
+ENOUGH = 0.2
 """Largest part of an eigenvector outside its window with which a pass is believed."""
 
 MOST = 4
@@ -39,7 +41,7 @@ class Carried:
     """Finds pairs by carrying the eigenvectors of the last matrix on; `dense`: LAPACK did it."""
 
     def __init__(self) -> None:
-        self._vectors = np.zeros((0, 0), np.float32)
+        self._basis = Basis.of(np.zeros((0, 0)))
         self.dense = True
 
     def find(self, matrix: sparse.csr_array, null: np.ndarray) -> Pairs:
@@ -49,48 +51,47 @@ class Carried:
             numpy.linalg.LinAlgError: the dense eigensolver did not converge.
         """
         self.dense = False
-        if matrix.shape == self._vectors.shape:
+        if matrix.shape == self._basis.vectors.shape:
             for _ in range(MOST):
                 found = self._pass(matrix)
                 if found is None:
                     break
-                self._carry(self._vectors @ found.rows.T)
                 if found.coupling < ENOUGH:
-                    return self._pairs(found.values)
+                    return self._pairs(matrix, found.values)
         return self._anew(matrix)
 
     def _pass(self, matrix: sparse.csr_array) -> Solved | None:
-        """B, put in the order of its diagonal, and its eigenpairs."""
-        vectors = self._vectors.astype(float)
+        """The eigenpairs of B, put in the order of its diagonal; the basis goes on to them."""
+        vectors = self._basis.vectors.astype(float)
         moved = matrix @ vectors
         diagonal = np.einsum("nk,nk->k", vectors, moved)
-        residual = (moved - vectors * diagonal).astype(np.float32)
-        change = scipy.linalg.lu_solve(self._factors, residual, overwrite_b=True)
-        order = np.argsort(diagonal + np.diagonal(change), kind="stable")
-        diagonal = (diagonal + np.diagonal(change))[order]
-        self._vectors = self._vectors[:, order]
-        return solved(NearlyDiagonal.of(diagonal, change[np.ix_(order, order)]))
+        change = self._basis.coordinates(moved - vectors * diagonal)
+        diagonal += np.diagonal(change)
+        order = np.argsort(diagonal, kind="stable")
+        found = solved(NearlyDiagonal.of(diagonal[order], change[np.ix_(order, order)]))
+        if found is not None:
+            self._basis = Basis.of(self._basis.vectors[:, order] @ found.rows.T)
+        return found
 
-    def _carry(self, vectors: np.ndarray) -> None:
-        """Keep vectors (M, M) for the next pass."""
-        self._vectors = (vectors / np.linalg.norm(vectors, axis=0)).astype(np.float32)
-        self._factors = scipy.linalg.lu_factor(self._vectors)
-
-    def _pairs(self, values: np.ndarray) -> Pairs:
-        """The pairs among eigenvalues, their vectors from V and from the rows of V⁻¹."""
-        (at,) = np.nonzero(values.imag > REAL)
-        unit = np.zeros((len(values), 2 * len(at)), np.float32)
-        unit[np.concatenate([at, at + 1]), np.arange(2 * len(at))] = 1.0
-        rows = scipy.linalg.lu_solve(self._factors, unit, trans=1)
-        left = rows[:, : len(at)] + 1j * rows[:, len(at) :]
-        right = self._vectors[:, at] + 1j * self._vectors[:, at + 1]
-        return selected(values[at], right, left)
+    def _pairs(self, matrix: sparse.csr_array, values: np.ndarray) -> Pairs:
+        """The pairs among eigenvalues; where two nearly meet, those of their sharpened planes."""
+        couples = nearly_meeting(values)
+        planes = sharpened(matrix, self._basis, values, couples)
+        alone = values.imag > REAL
+        alone[couples] = False
+        (at,) = np.nonzero(alone)
+        right, left = (of(at) + 1j * of(at + 1) for of in (self._basis.columns, self._basis.rows))
+        met = [plane for plane in planes if plane.is_pair]
+        return selected(
+            np.append(values[at], [plane.values[0] for plane in met]),
+            np.hstack([right, *(plane.vectors[:, :1] for plane in met)]),
+            np.hstack([left, *(plane.left_vectors[:, :1] for plane in met)]),
+        )
 
     def _anew(self, matrix: sparse.csr_array) -> Pairs:
         """By LAPACK, the vectors kept."""
         self.dense = True
         values, left, right = dense_eigenpairs(matrix)
         order = np.lexsort((-values.imag, values.real))
-        columns = np.where(values.imag < 0.0, -right.imag, right.real)[:, order]
-        self._carry(columns)
+        self._basis = Basis.of(np.where(values.imag < 0.0, -right.imag, right.real)[:, order])
         return selected(values, right, left)

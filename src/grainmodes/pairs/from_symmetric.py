@@ -122,5 +122,5 @@ def _settled(matrix: sparse.csr_array, starts: list[Plane]) -> Pairs:
     value = np.array(list(known))
     right, left = (np.zeros((matrix.shape[0], len(known)), complex) for _ in range(2))
     for place, plane in enumerate(known.values()):
-        right[:, place], left[:, place] = plane.vectors[:, 0], plane.left_vector
+        right[:, place], left[:, place] = plane.vectors[:, 0], plane.left_vectors[:, 0]
     return selected(value, right, left)

@@ -60,6 +60,11 @@ class Plane(NamedTuple):
         return float((a - d) ** 2 + 4.0 * b * c)
 
     @property
+    def is_pair(self) -> bool:
+        """Whether the two eigenvalues are a complex pair."""
+        return self.discriminant < 0.0
+
+    @property
     def values(self) -> np.ndarray:
         """λ1 and λ2, (2,) complex; the first one is the larger, or has λ_i > 0."""
         root = np.sqrt(complex(self.discriminant))
@@ -71,9 +76,9 @@ class Plane(NamedTuple):
         return self.right @ _kernels(self.block, self.values)
 
     @property
-    def left_vector(self) -> np.ndarray:
-        """v1, (M,) complex, with v1ᴴ K = λ1 v1ᴴ; of any length."""
-        return self.left @ _kernels(self.block.T, self.values[:1].conj())[:, 0]
+    def left_vectors(self) -> np.ndarray:
+        """v1 and v2, (M, 2) complex: vᴴ K = λ vᴴ."""
+        return self.left @ _kernels(self.block.T, self.values.conj())
 
     @property
     def product(self) -> float:
@@ -129,7 +134,7 @@ def _improved(matrix: sparse.csr_array, now: Plane) -> tuple[np.ndarray, np.ndar
     if np.sqrt(abs(now.discriminant)) <= CLOSE * abs(matrix).max():
         factors = _shifted(matrix, 0.5 * now.sum)
         return factors.solve(now.right), factors.solve(now.left, trans="T")
-    pair = now.discriminant < 0.0
+    pair = now.is_pair
     values = now.values[:1] if pair else now.values.real
     rights = now.right @ _kernels(now.block, values)
     lefts = now.left @ _kernels(now.block.T, values)

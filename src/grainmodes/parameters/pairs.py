@@ -13,8 +13,8 @@ class PairChoices:
 
     `detection`: "carried" takes the eigenvectors of the state before to a nearly diagonal J,
     "dense" solves every state anew, "symmetric" its symmetric part, for thousands of grains.
-    The first `located` births and as many deaths are bracketed to `bracket`, and their two modes are
-    followed over `around` steps to both sides.
+    The first `located` births and as many deaths are bracketed to `bracket`, and their two modes
+    are followed over `around` steps to both sides.
     """
 
     detection: str = "carried"

@@ -58,7 +58,7 @@ class Side(NamedTuple):
     @property
     def is_pair(self) -> bool:
         """Whether the two eigenvalues are a complex pair here."""
-        return self.plane.discriminant < 0.0
+        return self.plane.is_pair
 
 
 class Near(NamedTuple):
