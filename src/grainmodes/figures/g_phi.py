@@ -37,7 +37,7 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
         _points(axes, of[of["kind"] == "simulation"], colour, "o", markersize=DOT)
         appearance.add_to_legend(axes, f"${appearance.power(kappa)}$", colour, marker, mfc="none")
     axes.set(xlabel=r"$\phi$", ylabel=appearance.modulus_label("$G$", table))
-    axes.legend(title="$k_T / k_N$", loc="upper left", ncols=2)
+    axes.legend(title="$k_T / k_N$", loc="best", ncols=2)
     simulated = "simulation" in set(table["kind"])
     appearance.write_caption(figure, table, note=SYMBOLS if simulated else "")
 

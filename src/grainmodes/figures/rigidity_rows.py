@@ -29,7 +29,7 @@ def rows(ensemble, kinds: dict[str, str], asked: int | None) -> pd.DataFrame:
 
     Args:
         kinds: word for the column `kind` → variable of the ensemble; what it lacks is left out.
-        asked: number of grains; None is the largest that has a G.
+        asked: number of grains; None is the one at most points that have a G, the largest of several.
 
     Returns:
         columns `COLUMNS`; points without a converged sample are left out.
@@ -40,7 +40,8 @@ def rows(ensemble, kinds: dict[str, str], asked: int | None) -> pd.DataFrame:
     table = pd.concat(parts, ignore_index=True).assign(law=normal_law(ensemble))[list(COLUMNS)]
     table = table[table["samples"] > 0]
     having = table["n"] if len(table) else ensemble["n"]
-    n = largest_or(asked, np.unique(having.to_numpy()), "n")
+    sizes, points = np.unique(having.to_numpy(), return_counts=True)
+    n = largest_or(asked, sizes if asked else sizes[points == points.max()], "n")
     return table[table["n"] == n].reset_index(drop=True)
 
 
