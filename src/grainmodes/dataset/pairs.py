@@ -30,9 +30,7 @@ NAMES = {
     "pair_count_jacobian": Variable(STATE, "f8", "1", "complex pairs of J; NaN: not counted"),
     "pair_growth": Variable(STATE, "f8", RATE, "largest growth rate omega_i; NaN: no pair"),
     "pair_frequency": Variable(STATE, "f8", RATE, "omega_r of the pair that grows fastest"),
-    "pair_condition": Variable(
-        STATE, "f8", "1", "condition of its eigenvalue; NaN: none, or its vectors did not settle"
-    ),
+    "pair_condition": Variable(STATE, "f8", "1", "condition of its eigenvalue; NaN: none"),
     "pair_dense": Variable(STATE, "i1", "1", "1 if LAPACK solved this state"),
     # the pairs
     "life_count": Variable(BLOCK, "i8", "1", "number of complex pairs that were born"),

@@ -33,7 +33,7 @@ from grainmodes.pairs.definition import (
 )
 from grainmodes.pairs.following import matched
 from grainmodes.pairs.from_symmetric import pairs_from_symmetric
-from grainmodes.pairs.plane import SETTLED, plane_near, plane_of
+from grainmodes.pairs.plane import plane_of
 from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.exceptional_points import (
@@ -137,8 +137,7 @@ class Located(NamedTuple):
 class Count(NamedTuple):
     """One state of the walk in numbers: pairs of M⁻¹J and of J, the one of the largest ω_i.
 
-    `of_jacobian` is NaN where it is not asked for; without a pair `fastest` is. `condition` is NaN
-    where its eigenvectors did not settle.
+    `of_jacobian` is NaN where it is not asked for; without a pair `fastest` is.
     """
 
     strain: float
@@ -256,23 +255,10 @@ class PairWalk:
             self.counts.append(self._in_numbers(complex(np.nan, np.nan), np.nan))
             return
         place = int(np.argmax(growth))
-        self.counts.append(self._in_numbers(*self._sharpened(place)))
+        value, condition = complex(pairs.value[place]), float(pairs.condition[place])
+        self.counts.append(self._in_numbers(value, condition))
         if self.unstable is None or growth[place] > self.unstable.growth:
             self.unstable = Unstable(float(growth[place]), self.now, place)
-
-    def _sharpened(self, place: int) -> tuple[complex, float]:
-        """λ of a pair and its condition to the last digits; NaN where its plane does not settle.
-
-        Vectors that were carried on tell that a pair is there, but not well how parallel it is.
-        """
-        side = self.now.side(place)
-        try:
-            plane = plane_near(mass_weighted(side.balance), side.plane)
-        except ArithmeticError:
-            return complex(self.now.pairs.value[place]), np.nan
-        if plane.residual > SETTLED or plane.discriminant > 0.0:
-            return complex(self.now.pairs.value[place]), np.nan
-        return complex(plane.values[0]), plane.condition
 
     def _in_numbers(self, fastest: complex, condition: float) -> Count:
         of_jacobian, balance = np.nan, self.now.balance
