@@ -204,7 +204,8 @@ def effective_energy(law: ContactLaw, pairs: list[Pair], u, printed: bool, turn:
 def slopes(law: ContactLaw, pair: Pair) -> tuple[float, float]:
     """(∂f_N/∂ξ, −∂f_T/∂s) by complex steps."""
     overlap, h = pair.reach - length(pair.branch), 1j * COMPLEX_STEP
-    f_n, f_t = normal_force(law, overlap + h), tangential_force(law, overlap, pair.slip + h)
+    slid = pair.slip + remembered(law, overlap, h)
+    f_n, f_t = normal_force(law, overlap + h), tangential_force(law, overlap, slid)
     return f_n.imag / COMPLEX_STEP, -f_t.imag / COMPLEX_STEP
 
 
