@@ -188,42 +188,6 @@ def jacobian(law: ContactLaw, pairs: list[Pair], n: int) -> np.ndarray:
     return blocks.reshape(3 * n, 3 * n)
 
 
-def effective_energy(law: ContactLaw, pairs: list[Pair], u, printed: bool, turn: float = 1.0):
-    """U_eff of A (H2) after the motion u (N, 3); turn = −1 counts rotations as (H2) prints them."""
-    total = 0.0
-    for p in pairs:
-        step = u[p.i] + ON_J * u[p.j]
-        n, t, r = p.branch / length(p.branch), tangent(p.branch), length(p.branch)
-        k_n, k_t = (1.0, law.kt) if printed else slopes(law, p)
-        slide = t @ step[:2] + turn * step[2]
-        press = normal_force(law, p.reach - r) / r
-        total += k_n * (n @ step[:2]) ** 2 - press * (t @ step[:2]) ** 2 + k_t * slide**2
-    return total / 2
-
-
-def slopes(law: ContactLaw, pair: Pair) -> tuple[float, float]:
-    """(∂f_N/∂ξ, −∂f_T/∂s) by complex steps."""
-    overlap, h = pair.reach - length(pair.branch), 1j * COMPLEX_STEP
-    slip = pair.slip + remembered(law, overlap, h)
-    f_n, f_t = normal_force(law, overlap + h), tangential_force(law, overlap, slip)
-    return f_n.imag / COMPLEX_STEP, -f_t.imag / COMPLEX_STEP
-
-
-def effective_hessian(law: ContactLaw, pairs: list[Pair], n: int, printed: bool, turn: float = 1.0):
-    """∂²U_eff/∂q∂q, dense (3N, 3N): differences of steps of size 1, exact as U_eff is a square."""
-    unit = np.eye(3 * n).reshape(-1, n, 3)
-    energy = [effective_energy(law, pairs, e, printed, turn) for e in unit]
-    matrix = np.diag(2 * np.array(energy))
-    for a, b in itertools.combinations(range(3 * n), 2):
-        near = [p for p in pairs if {a // 3, b // 3} <= {p.i, p.j}]
-        together, one, other = (
-            effective_energy(law, near, u, printed, turn)
-            for u in (unit[a] + unit[b], unit[a], unit[b])
-        )
-        matrix[a, b] = matrix[b, a] = together - one - other
-    return matrix
-
-
 def affine_steps(law: ContactLaw, pairs: list[Pair], loaded: bool) -> list[Pair]:
     """Every pair a complex step further along the affine shear r⃗ → r⃗ + γ (r_y, 0)."""
     steps = [1j * COMPLEX_STEP * np.array([p.branch[1], 0, 0]) for p in pairs]

@@ -13,7 +13,13 @@ import numpy as np
 from grainmodes.kernels.assembly import on_grains
 from grainmodes.kernels.contacts import contact_forces, normal_forces
 from grainmodes.kernels.energies import contact_energies
-from grainmodes.kernels.laws import Elastic, Frictionless, Interaction
+from grainmodes.kernels.laws import (
+    Elastic,
+    ElasticForce,
+    Frictionless,
+    Interaction,
+    SharpCoulombForce,
+)
 from grainmodes.packing import Contacts, Packing
 
 SIGNS = np.array([-1.0, -1.0, 1.0])
@@ -43,13 +49,19 @@ AT_THRESHOLD = 1.0 - 1e-12
 
 
 def sliding(contacts: Contacts, interaction: Interaction) -> np.ndarray:
-    """Contacts at Coulomb's threshold, |s| ≥ s* = μ (k_N/k_T) ξ: (C,) bool; C (8).
+    """Contacts at Coulomb's threshold, |s| ≥ s* = μ (k_N/k_T) ξ or |h| ≥ μ f_N: (C,) bool; C (8).
 
     None without friction, or with springs that never slip.
     """
     tangential = interaction.tangential
-    if isinstance(tangential, Frictionless | Elastic):
+    if isinstance(tangential, Frictionless | Elastic | ElasticForce):
         return np.zeros(len(contacts.i), bool)
+    if isinstance(tangential, SharpCoulombForce):
+        normal = np.linalg.norm(
+            normal_forces(interaction, contacts.normal, contacts.overlap), axis=1
+        )
+        threshold = tangential.friction_coefficient * normal
+        return np.abs(contacts.displacement) >= AT_THRESHOLD * threshold
     softness = interaction.normal.stiffness / tangential.stiffness
     threshold = tangential.friction_coefficient * softness * contacts.overlap
     return np.abs(contacts.displacement) >= AT_THRESHOLD * threshold

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-import naive
+import naive_hessian
 from grainmodes.hessian import STIFFNESSES, effective_hessian
 from grainmodes.jacobian import jacobian
 from grainmodes.kernels.laws import interaction
@@ -26,7 +26,9 @@ def dynamical(packing: Packing, law: ContactLaw) -> np.ndarray:
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
 def test_every_law_against_differences_of_the_potential(law, slip, stiffness):
     packing = crowd(51, strain=0.3, slip=slip)
-    twin = naive.effective_hessian(law, pairs_of(packing), packing.n, stiffness == "printed")
+    twin = naive_hessian.effective_hessian(
+        law, pairs_of(packing), packing.n, stiffness == "printed"
+    )
     np.testing.assert_allclose(dense(packing, law, stiffness), twin, rtol=0, atol=1e-13)
 
 
@@ -34,7 +36,9 @@ def test_every_law_against_differences_of_the_potential(law, slip, stiffness):
 @pytest.mark.parametrize("law", FRICTIONLESS, ids=law_name)
 def test_without_friction_against_differences_of_the_potential(law, stiffness):
     packing = crowd(52, strain=-0.3)
-    twin = naive.effective_hessian(law, pairs_of(packing), packing.n, stiffness == "printed")
+    twin = naive_hessian.effective_hessian(
+        law, pairs_of(packing), packing.n, stiffness == "printed"
+    )
     blocks = twin.reshape(packing.n, 3, packing.n, 3)
     assert np.all(blocks[:, 2] == 0.0)
     twin = blocks[:, :2, :, :2].reshape(2 * packing.n, -1)
@@ -67,7 +71,7 @@ def test_slip_makes_the_jacobian_lose_its_symmetry_and_not_the_hessian(law):
 def test_the_printed_sign_of_rotations_changes_no_eigenvalue(printed):
     law, packing = LAWS[0], crowd(55)
     matrices = [
-        naive.effective_hessian(law, pairs_of(packing), packing.n, printed, turn)
+        naive_hessian.effective_hessian(law, pairs_of(packing), packing.n, printed, turn)
         for turn in (1.0, -1.0)
     ]
     assert np.abs(matrices[0] - matrices[1]).max() > 0.1

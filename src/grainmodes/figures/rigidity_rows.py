@@ -29,7 +29,7 @@ def rows(ensemble, kinds: dict[str, str], asked: int | None) -> pd.DataFrame:
 
     Args:
         kinds: word for the column `kind` → variable of the ensemble; what it lacks is left out.
-        asked: number of grains; None is the one at most points that have a G, the largest of several.
+        asked: number of grains; None is the one at most points with a G, the largest of several.
 
     Returns:
         columns `COLUMNS`; points without a converged sample are left out.

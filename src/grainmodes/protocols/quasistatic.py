@@ -26,6 +26,7 @@ import numpy as np
 from grainmodes.forces import is_frictionless, mean_contact_force
 from grainmodes.kernels.damping import Drag
 from grainmodes.kernels.laws import Interaction
+from grainmodes.kernels.springs import advanced_displacement
 from grainmodes.packing import History, Packing, find_contacts
 from grainmodes.parameters.strain import Shear
 from grainmodes.relaxation.balance import Balance
@@ -78,7 +79,11 @@ def affinely(before: Balance, strain: float, loaded: bool) -> Packing:
     contacts = before.contacts
     r = contacts.normal * contacts.distance[:, None]
     slide = (strain - before.packing.strain) * r[:, 1]
-    s = contacts.displacement + slide * r[:, 1] / np.hypot(r[:, 0] + 0.5 * slide, r[:, 1])
+    middle = np.hypot(r[:, 0] + 0.5 * slide, r[:, 1])
+    overlap = contacts.overlap + contacts.distance - middle
+    s = advanced_displacement(
+        before.interaction, overlap, contacts.displacement, slide * r[:, 1] / middle
+    )
     return replace(sheared, history=History(contacts.i, contacts.j, s))
 
 
