@@ -12,7 +12,7 @@ class PairChoices:
     """Complex pairs along a quasistatic shear (C, Sec. V).
 
     `detection`: "carried" takes the eigenvectors of the state before to a nearly diagonal J,
-    "dense" solves every state anew, "symmetric" its symmetric part, for thousands of grains.
+    "dense" solves every state anew, "symmetric" starts from its symmetric part.
     The first `located` births and as many deaths are bracketed to `bracket`, and their two modes
     are followed over `around` steps to both sides.
     """
