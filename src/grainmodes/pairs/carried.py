@@ -26,11 +26,11 @@ import scipy.sparse as sparse
 
 from grainmodes.pairs.basis import Basis
 from grainmodes.pairs.definition import Pairs, dense_eigenpairs, selected
-from grainmodes.pairs.nearly_diagonal import NearlyDiagonal, Solved, solved
+from grainmodes.pairs.nearly_diagonal import BROAD, NearlyDiagonal, Solved, solved
 from grainmodes.pairs.sharpening import nearly_meeting, sharpened
 from grainmodes.stability import REAL
 
-ENOUGH = 0.2
+ENOUGH = 0.3
 """Largest part of an eigenvector outside its window with which a pass is believed."""
 
 MOST = 4
@@ -56,8 +56,8 @@ class Carried:
                 found = self._pass(matrix)
                 if found is None:
                     break
-                if found.coupling < ENOUGH:
-                    return self._pairs(matrix, found.values)
+                if found.coupling.max() < ENOUGH:
+                    return self._pairs(matrix, found)
         return self._anew(matrix)
 
     def _pass(self, matrix: sparse.csr_array) -> Solved | None:
@@ -68,14 +68,15 @@ class Carried:
         change = self._basis.coordinates(moved - vectors * diagonal)
         diagonal += np.diagonal(change)
         order = np.argsort(diagonal, kind="stable")
-        found = solved(NearlyDiagonal.of(diagonal[order], change[np.ix_(order, order)]))
+        nearly = NearlyDiagonal.of(diagonal[order], change[np.ix_(order, order)])
+        found = solved(nearly) or solved(nearly, BROAD)
         if found is not None:
             self._basis = Basis.of(self._basis.vectors[:, order] @ found.rows.T)
         return found
 
-    def _pairs(self, matrix: sparse.csr_array, values: np.ndarray) -> Pairs:
+    def _pairs(self, matrix: sparse.csr_array, found: Solved) -> Pairs:
         """The pairs among eigenvalues; where two nearly meet, those of their sharpened planes."""
-        couples = nearly_meeting(values)
+        values, couples = found.values, nearly_meeting(found.values, found.coupling)
         planes = sharpened(matrix, self._basis, values, couples)
         alone = values.imag > REAL
         alone[couples] = False
