@@ -12,9 +12,9 @@ to the eigenvectors, told by the coupling, and each pass takes it to its square:
 
 | coupling         | then                                                                  |
 | ---------------- | --------------------------------------------------------------------- |
-| below `ENOUGH`   | the pairs are those of this pass, once those are sharpened that       |
-|                  | nearly meet (`sharpening`)                                            |
-| above            | another pass from the new vectors, `MOST` at most, then LAPACK        |
+| below `ENOUGH`   | the pairs are those of this pass, once those that nearly meet are     |
+|                  | sharpened (`sharpening`), to a residual below `SHARP`                 |
+| else             | another pass from the new vectors, `MOST` at most, then LAPACK        |
 
 Grains that come to carry load or cease to change the size of K: then, too, LAPACK solves it.
 """
@@ -27,11 +27,15 @@ import scipy.sparse as sparse
 from grainmodes.pairs.basis import Basis
 from grainmodes.pairs.definition import Pairs, dense_eigenpairs, selected
 from grainmodes.pairs.nearly_diagonal import BROAD, NearlyDiagonal, Solved, solved
+from grainmodes.pairs.plane import Plane
 from grainmodes.pairs.sharpening import nearly_meeting, sharpened
 from grainmodes.stability import REAL
 
 ENOUGH = 0.3
 """Largest part of an eigenvector outside its window with which a pass is believed."""
+
+SHARP = 1e-4
+"""Residual of a sharpened plane, in units of max|K|; λ is right to about its square."""
 
 MOST = 4
 """Passes, after which LAPACK costs no more."""
@@ -57,7 +61,10 @@ class Carried:
                 if found is None:
                     break
                 if found.coupling.max() < ENOUGH:
-                    return self._pairs(matrix, found)
+                    couples = nearly_meeting(found.values, found.coupling)
+                    planes = sharpened(matrix, self._basis, found.values, couples)
+                    if all(plane.residual < SHARP for plane in planes):
+                        return self._pairs(found.values, couples, planes)
         return self._anew(matrix)
 
     def _pass(self, matrix: sparse.csr_array) -> Solved | None:
@@ -74,10 +81,8 @@ class Carried:
             self._basis = Basis.of(self._basis.vectors[:, order] @ found.rows.T)
         return found
 
-    def _pairs(self, matrix: sparse.csr_array, found: Solved) -> Pairs:
+    def _pairs(self, values: np.ndarray, couples: np.ndarray, planes: list[Plane]) -> Pairs:
         """The pairs among eigenvalues; where two nearly meet, those of their sharpened planes."""
-        values, couples = found.values, nearly_meeting(found.values, found.coupling)
-        planes = sharpened(matrix, self._basis, values, couples)
         alone = values.imag > REAL
         alone[couples] = False
         (at,) = np.nonzero(alone)
