@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -24,8 +25,10 @@ from grainmodes.kernels.laws import Hertz, interaction
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import checkpoints_up_to, phi_at_step
 from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.compression import advanced, balanced, placed
+from grainmodes.protocols.pair_tracking import PairWalk
 from grainmodes.protocols.shear import Walk
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
@@ -201,6 +204,31 @@ def _walk(packing, choices: Shear) -> None:
     walk = Walk.start(packing, HARMONIC, choices)
     while not walk.done and walk.advance():
         pass
+
+
+def pairs_carried(n: int) -> float:
+    """Every complex pair of M⁻¹J in γ = 0 to 0.02, Δγ = 1e-4: mu = 0.5, k_T = 2 k_N / 7 (C)."""
+    return _pairs(n, "carried")
+
+
+def pairs_dense(n: int) -> float:
+    """The same by a dense general eigensolver with vectors at every state."""
+    return _pairs(n, "dense")
+
+
+def _pairs(n: int, detection: str) -> float:
+    packing = balanced_at(n, 0.9)
+    packing = replace(packing, mass=np.ones(n))
+    rule = interaction(ContactLaw("hertz", "smoothed_coulomb", 2 / 7, 0.5))
+    _walk_with_pairs(packing, rule, 1e-4, detection)
+    return cpu(_walk_with_pairs, packing, rule, 0.02, detection)
+
+
+def _walk_with_pairs(packing, rule, strain: float, detection: str) -> None:
+    choices = Shear(strain, 1e-4, force_tolerance=5e-14)
+    walk = PairWalk.start(packing, rule, choices, PairChoices(detection, located=0))
+    while not walk.done:
+        walk.advance()
 
 
 def start_up(n: int) -> float:

@@ -68,17 +68,15 @@ class Carried:
         return self._anew(matrix)
 
     def _pass(self, matrix: sparse.csr_array) -> Solved | None:
-        """The eigenpairs of B, put in the order of its diagonal; the basis goes on to them."""
+        """The eigenpairs of B; the basis goes on to them."""
         vectors = self._basis.vectors.astype(float)
         moved = matrix @ vectors
         diagonal = np.einsum("nk,nk->k", vectors, moved)
         change = self._basis.coordinates(moved - vectors * diagonal)
-        diagonal += np.diagonal(change)
-        order = np.argsort(diagonal, kind="stable")
-        nearly = NearlyDiagonal.of(diagonal[order], change[np.ix_(order, order)])
+        nearly = NearlyDiagonal.of(diagonal, change)
         found = solved(nearly) or solved(nearly, BROAD)
         if found is not None:
-            self._basis = Basis.of(self._basis.vectors[:, order] @ found.rows.T)
+            self._basis = Basis.of(self._basis.vectors[:, nearly.order] @ found.rows.T)
         return found
 
     def _pairs(self, values: np.ndarray, couples: np.ndarray, planes: list[Plane]) -> Pairs:

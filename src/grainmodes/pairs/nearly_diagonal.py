@@ -55,18 +55,24 @@ class Solved(NamedTuple):
 
 
 class NearlyDiagonal(NamedTuple):
-    """B = diag(d) + E: d (M,) ascending, E and Eᵀ (M, M) float32, the diagonal of E in d."""
+    """B = diag(d) + E: d (M,) ascending, E and Eᵀ (M, M) float32 with 0 on the diagonal.
 
+    `order`, (M,): where each mode stood before.
+    """
+
+    order: np.ndarray
     diagonal: np.ndarray
     change: np.ndarray
     transposed: np.ndarray
 
     @classmethod
     def of(cls, diagonal: np.ndarray, change: np.ndarray) -> NearlyDiagonal:
-        """From d and a change whose diagonal is 0 or stands in d already."""
-        rest = change.astype(np.float32)
-        np.fill_diagonal(rest, 0.0)
-        return cls(diagonal, rest, np.ascontiguousarray(rest.T))
+        """From d in any order, and E (M, M) with a diagonal."""
+        diagonal = diagonal + np.diagonal(change)
+        order = np.argsort(diagonal, kind="stable")
+        transposed = change.T[np.ix_(order, order)].astype(np.float32, copy=False)
+        np.fill_diagonal(transposed, 0.0)
+        return cls(order, diagonal[order], np.ascontiguousarray(transposed.T), transposed)
 
     def hubs(self, most: int) -> np.ndarray:
         """The modes that couple most to all others, if they stand out."""
