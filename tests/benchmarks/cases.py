@@ -177,7 +177,7 @@ def weakly_frictional(n: int):
     return problem(balanced_at(n, 0.9), interaction(ContactLaw(kt=1e-4)))
 
 
-def pairs_along(n: int, detection: str, strain: float = 2e-3) -> float:
+def pairs_along(n: int, detection: str, strain: float = 0.02) -> float:
     """Complex pairs of every state of a shear in steps of 1e-4, C's grains and law, μ = 10."""
     rule = interaction(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, 10.0))
     packing = replace(balanced_at(n, 0.9), mass=np.ones(n))

@@ -45,8 +45,8 @@ CASES = (
     ("a step of shear", "shear_step", 128, np.inf, "ms"),
     ("a step of shear", "shear_step", 1024, np.inf, "ms"),
     ("a step of shear", "shear_step", 4096, np.inf, "ms"),
-    ("complex pairs of 20 states of a shear", "pairs_carried", 500, np.inf, "s"),
-    ("the same by LAPACK", "pairs_by_lapack", 500, np.inf, "s"),
+    ("complex pairs of 200 states to 0.02", "pairs_carried", 500, np.inf, "s"),
+    ("the same, each state by LAPACK", "pairs_by_lapack", 500, np.inf, "s"),
     ("start-up of a sample job", "start_up", 16, 1.0, "s"),
 )
 

@@ -12,9 +12,9 @@ to the eigenvectors, told by the coupling, and each pass takes it to its square:
 
 | coupling         | then                                                                  |
 | ---------------- | --------------------------------------------------------------------- |
-| below `ENOUGH`   | the pairs are those of this pass, once those are sharpened that       |
-|                  | nearly meet (`sharpening`)                                            |
-| above            | another pass from the new vectors, `MOST` at most, then LAPACK        |
+| below `ENOUGH`   | the pairs are those of this pass, once those that nearly meet are     |
+|                  | sharpened (`sharpening`), to a residual below `SHARP`                 |
+| else             | another pass from the new vectors, `MOST` at most, then LAPACK        |
 
 Grains that come to carry load or cease to change the size of K: then, too, LAPACK solves it.
 """
@@ -26,12 +26,16 @@ import scipy.sparse as sparse
 
 from grainmodes.pairs.basis import Basis
 from grainmodes.pairs.definition import Pairs, dense_eigenpairs, selected
-from grainmodes.pairs.nearly_diagonal import NearlyDiagonal, Solved, solved
+from grainmodes.pairs.nearly_diagonal import BROAD, NearlyDiagonal, Solved, solved
+from grainmodes.pairs.plane import Plane
 from grainmodes.pairs.sharpening import nearly_meeting, sharpened
 from grainmodes.stability import REAL
 
-ENOUGH = 0.2
+ENOUGH = 0.3
 """Largest part of an eigenvector outside its window with which a pass is believed."""
+
+SHARP = 1e-4
+"""Residual of a sharpened plane, in units of max|K|; λ is right to about its square."""
 
 MOST = 4
 """Passes, after which LAPACK costs no more."""
@@ -56,27 +60,27 @@ class Carried:
                 found = self._pass(matrix)
                 if found is None:
                     break
-                if found.coupling < ENOUGH:
-                    return self._pairs(matrix, found.values)
+                if found.coupling.max() < ENOUGH:
+                    couples = nearly_meeting(found.values, found.coupling)
+                    planes = sharpened(matrix, self._basis, found.values, couples)
+                    if all(plane.residual < SHARP for plane in planes):
+                        return self._pairs(found.values, couples, planes)
         return self._anew(matrix)
 
     def _pass(self, matrix: sparse.csr_array) -> Solved | None:
-        """The eigenpairs of B, put in the order of its diagonal; the basis goes on to them."""
+        """The eigenpairs of B; the basis goes on to them."""
         vectors = self._basis.vectors.astype(float)
         moved = matrix @ vectors
         diagonal = np.einsum("nk,nk->k", vectors, moved)
         change = self._basis.coordinates(moved - vectors * diagonal)
-        diagonal += np.diagonal(change)
-        order = np.argsort(diagonal, kind="stable")
-        found = solved(NearlyDiagonal.of(diagonal[order], change[np.ix_(order, order)]))
+        nearly = NearlyDiagonal.of(diagonal, change)
+        found = solved(nearly) or solved(nearly, BROAD)
         if found is not None:
-            self._basis = Basis.of(self._basis.vectors[:, order] @ found.rows.T)
+            self._basis = Basis.of(self._basis.vectors[:, nearly.order] @ found.rows.T)
         return found
 
-    def _pairs(self, matrix: sparse.csr_array, values: np.ndarray) -> Pairs:
+    def _pairs(self, values: np.ndarray, couples: np.ndarray, planes: list[Plane]) -> Pairs:
         """The pairs among eigenvalues; where two nearly meet, those of their sharpened planes."""
-        couples = nearly_meeting(values)
-        planes = sharpened(matrix, self._basis, values, couples)
         alone = values.imag > REAL
         alone[couples] = False
         (at,) = np.nonzero(alone)

@@ -108,7 +108,7 @@ def plane_of(matrix: sparse.csr_array, right: np.ndarray, left: np.ndarray) -> P
     block = left.T @ forward
     missing = np.linalg.norm(forward - right @ block)
     missing_left = np.linalg.norm(back - left @ block.T) / np.linalg.norm(left)
-    return Plane(right, left, block, float(max(missing, missing_left) / abs(matrix).max()))
+    return Plane(right, left, block, float(max(missing, missing_left) / np.abs(matrix.data).max()))
 
 
 def plane_near(matrix: sparse.csr_array, start: Plane) -> Plane:
@@ -131,7 +131,7 @@ def plane_near(matrix: sparse.csr_array, start: Plane) -> Plane:
 
 def _improved(matrix: sparse.csr_array, now: Plane) -> tuple[np.ndarray, np.ndarray]:
     """Vectors (M, 2) on both sides after one step of inverse iteration."""
-    if np.sqrt(abs(now.discriminant)) <= CLOSE * abs(matrix).max():
+    if np.sqrt(abs(now.discriminant)) <= CLOSE * np.abs(matrix.data).max():
         factors = _shifted(matrix, 0.5 * now.sum)
         return factors.solve(now.right), factors.solve(now.left, trans="T")
     pair = now.is_pair

@@ -21,17 +21,32 @@ from grainmodes.pairs.plane import Plane, plane_of
 CLOSE = 1e-4
 """|λ1 − λ2|, k_N d^(1/2)/m, within which a pass does not tell a pair from two real modes."""
 
+LOOSE = 0.15
+"""The same for a strongly coupled mode, in units of its coupling squared; measured."""
 
-def nearly_meeting(values: np.ndarray) -> np.ndarray:
-    """Places (K,) of the first of two adjacent eigenvalues that nearly meet; none stands twice."""
-    real = values.imag == 0.0
-    ranks = np.flatnonzero(real)
-    ranks = ranks[np.argsort(values.real[ranks], kind="stable")]
-    close = np.flatnonzero(np.diff(values.real[ranks]) < CLOSE).tolist()
-    apart = [k for at, k in enumerate(close) if not at or k - 1 != close[at - 1]]
-    pairs = np.flatnonzero((values.imag > 0.0) & (values.imag < CLOSE / 2.0))
-    couples = [(p, p + 1) for p in pairs.tolist()] + [(ranks[k], ranks[k + 1]) for k in apart]
-    return np.array(couples, int).reshape(-1, 2)
+
+def nearly_meeting(values: np.ndarray, coupling: np.ndarray) -> np.ndarray:
+    """Places (K, 2) of two eigenvalues that nearly meet, for their coupling; none stands twice."""
+    unsure = np.maximum(CLOSE, LOOSE * coupling**2)
+    (pairs,) = np.nonzero((values.imag > 0.0) & (2.0 * values.imag < unsure))
+    return np.array([*zip(pairs, pairs + 1, strict=True), *_couples(values, unsure)], int).reshape(
+        -1, 2
+    )
+
+
+def _couples(values: np.ndarray, unsure: np.ndarray) -> list[tuple[int, int]]:
+    """Neighbours among the real eigenvalues, the nearest ones first."""
+    (real,) = np.nonzero(values.imag == 0.0)
+    real = real[np.argsort(values.real[real], kind="stable")]
+    gap = np.diff(values.real[real])
+    close = gap < np.maximum(unsure[real[:-1]], unsure[real[1:]])
+    found, used = [], set()
+    for at in np.argsort(gap[close], kind="stable"):
+        couple = tuple(real[np.flatnonzero(close)[at] :][:2].tolist())
+        if used.isdisjoint(couple):
+            found.append(couple)
+            used.update(couple)
+    return found
 
 
 def sharpened(
