@@ -51,8 +51,8 @@ class _Cache(FunctionCache):
 def _from_outside(types) -> bool:
     """Whether a law from outside is among these types of arguments, or within one of them."""
     return any(
-        getattr(each, "instance_class", None) in OUTSIDE or _from_outside(getattr(each, "types", ()))
-        for each in types
+        getattr(one, "instance_class", None) in OUTSIDE or _from_outside(getattr(one, "types", ()))
+        for one in types
     )
 
 

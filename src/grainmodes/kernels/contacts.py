@@ -20,7 +20,7 @@ from grainmodes.kernels.laws import normal_response, tangential_response
 
 @kernel
 def remembered(displacement, c):
-    """What the spring of contact c remembers; nothing where `displacement` is None."""
+    """What the spring of contact c remembers; 0 where friction was never loaded."""
     if displacement is None:
         return 0.0
     return displacement[c]
@@ -28,7 +28,7 @@ def remembered(displacement, c):
 
 @kernel
 def contact_forces(interaction, normal, overlap, displacement):
-    """(f_x, f_y, f_T) on grain i of every contact, (C, 3); displacement (C,), None if never loaded."""
+    """(f_x, f_y, f_T) on grain i of every contact, (C, 3); `displacement` is (C,) or None."""
     forces = np.empty((overlap.shape[0], 3))
     for c in range(overlap.shape[0]):
         nx, ny = normal[c, 0], normal[c, 1]
@@ -44,7 +44,7 @@ def contact_forces(interaction, normal, overlap, displacement):
 
 @kernel
 def contact_stiffness(interaction, normal, distance, overlap, displacement):
-    """K of every contact, (C, 3, 3); displacement (C,), None if friction was never loaded."""
+    """K of every contact, (C, 3, 3); `displacement` is (C,) or None."""
     stiffness = np.empty((overlap.shape[0], 3, 3))
     for c in range(overlap.shape[0]):
         n = normal[c]
