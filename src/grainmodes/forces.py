@@ -35,7 +35,8 @@ def forces_on_i(contacts: Contacts, interaction: Interaction) -> np.ndarray:
     """Force of every contact on its grain i, k_N d^(3/2): (C, 2), or (C, 3) with f_T last."""
     if is_frictionless(interaction):
         return normal_forces(interaction, contacts.normal, contacts.overlap)
-    return contact_forces(interaction, contacts.normal, contacts.overlap, contacts.displacement)
+    s = contacts.tangential_displacement
+    return contact_forces(interaction, contacts.normal, contacts.overlap, s)
 
 
 def tangential_forces(interaction: Interaction, overlap: np.ndarray, s: np.ndarray) -> np.ndarray:
@@ -94,7 +95,8 @@ def stress(packing: Packing, contacts: Contacts, interaction: Interaction) -> np
 
 def energy(contacts: Contacts, interaction: Interaction) -> float:
     """Energy stored in the contacts: see `kernels.energies`."""
-    return float(contact_energies(interaction, contacts.overlap, contacts.displacement).sum())
+    s = contacts.tangential_displacement
+    return float(contact_energies(interaction, contacts.overlap, s).sum())
 
 
 def mean_contact_force(contacts: Contacts, interaction: Interaction) -> float:

@@ -31,7 +31,7 @@ def stiffness_of(contacts: Contacts, interaction: Interaction) -> np.ndarray:
         contacts.normal,
         contacts.distance,
         contacts.overlap,
-        contacts.displacement,
+        contacts.tangential_displacement,
     )
 
 

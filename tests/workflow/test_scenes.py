@@ -18,21 +18,6 @@ def scene_of(observables: dict, **changes) -> dict:
     return scene | {"grids": [SCENE["grids"][0] | {"observables": observables}]} | changes
 
 
-def test_only_rigidity(fresh):
-    fresh.write_scene(scene_of({"step_strain": False, "spectrum": "none"}))
-    assert fresh.planned() == PACKINGS | {"rigidity": 4, "point": 4, "figure": 3} | END
-
-
-def test_only_eigenvalues(fresh):
-    fresh.write_scene(
-        scene_of({"rigidity": False, "step_strain": False, "spectrum": "eigenvalues"})
-    )
-    plan = fresh.run("-n", "-p")
-    assert '"eigenvalues"' in plan
-    assert '"modes"' not in plan
-    assert jobs_in(plan) == PACKINGS | {"spectrum": 4, "point": 4, "figure": 3} | END
-
-
 def test_every_observable(fresh):
     asked = ["rattlers", "hessian", "fields", "probes", "close_up", "complex_pairs"]
     fresh.write_scene(scene_of(dict.fromkeys(asked, True) | {"spectrum": "eigenvalues"}))
@@ -74,15 +59,6 @@ def test_grids_get_what_they_ask_for(fresh):
     }
     assert plan.count('"spectrum": "counts"') == plan.count('"spectrum": "modes"') == 1
     assert jobs["compress"] == 7
-
-
-def test_without_friction(fresh):
-    grid = {name: value for name, value in SCENE["grids"][0].items() if name != "kt"}
-    fresh.write_scene(scene_of({}, grids=[grid], effects={"friction": False}))
-    plan = fresh.run("-n")
-    assert "k_T = 0.0" in plan
-    assert "k_T = 1" not in plan
-    assert jobs_in(plan)["rigidity"] == 2
 
 
 def test_the_default_scene_does_not_leak(fresh):

@@ -11,6 +11,7 @@ import inspect
 import llvmlite.binding
 import numba
 from numba import njit
+from numba.core.caching import FunctionCache
 from numba.extending import overload, register_jitable
 
 from grainmodes.environment import numba_cache
@@ -29,30 +30,72 @@ numba.config.CACHE_DIR = str(numba_cache())
 # Loops over many arrays need more overlap checks than LLVM's default allows before it vectorises.
 llvmlite.binding.set_option("", "--runtime-memory-check-threshold=128")
 
-kernel = njit(**FLAGS)
+LAWS: dict[object, set[type]] = {}
+"""Generic function → the laws that implement it."""
+
+OUTSIDE: set[type] = set()
+"""Laws that a function from outside the package stands behind."""
+
+
+class _Cache(FunctionCache):
+    """numba's cache on disk, closed to laws from outside: it would not see an edit of them."""
+
+    def load_overload(self, sig, target_context):
+        return None if _from_outside(sig) else super().load_overload(sig, target_context)
+
+    def save_overload(self, sig, data):
+        if not _from_outside(sig):
+            super().save_overload(sig, data)
+
+
+def _from_outside(types) -> bool:
+    """Whether a law from outside is among these types of arguments, or within one of them."""
+    return any(
+        getattr(one, "instance_class", None) in OUTSIDE or _from_outside(getattr(one, "types", ()))
+        for one in types
+    )
+
+
+def kernel(function):
+    """The function compiled for every set of types that it meets, and kept on disk."""
+    compiled = njit(**FLAGS)(function)
+    compiled._cache = _Cache(function)
+    return compiled
 
 
 def implements(generic, law_type):
     """Register a function as `generic` for laws of `law_type`; numba picks it by argument type.
 
     The first argument of the function is the law, an instance of the NamedTuple `law_type`. A law
-    from outside the package joins in the same way.
+    from outside the package joins in the same way; what is compiled for it is not kept on disk.
     """
 
     def register(function):
-        body = register_jitable(function)
-        names = list(inspect.signature(function).parameters)
-
-        def choose(*types):
-            matches = getattr(types[0], "instance_class", None) is law_type
-            return body if matches else None
-
-        signature = ", ".join(names)
-        scope = {"choose": choose}
-        exec(f"def specialise({signature}): return choose({signature})", scope)
-        overload(generic, jit_options={"fastmath": FLAGS["fastmath"], "error_model": "numpy"})(
-            scope["specialise"]
-        )
-        return function
+        LAWS.setdefault(generic, set()).add(law_type)
+        if not function.__module__.startswith(f"{__package__.partition('.')[0]}."):
+            OUTSIDE.add(law_type)
+        return _overload(generic, function, lambda law: law is law_type)
 
     return register
+
+
+def otherwise(generic):
+    """Register a function as `generic` for all laws that do not implement it themselves."""
+    return lambda function: _overload(generic, function, lambda law: law not in LAWS[generic])
+
+
+def _overload(generic, function, takes):
+    """Let numba take the function for `generic` where `takes` says so of the type of the law."""
+    body = register_jitable(function)
+    names = list(inspect.signature(function).parameters)
+
+    def choose(*types):
+        return body if takes(getattr(types[0], "instance_class", None)) else None
+
+    signature = ", ".join(names)
+    scope = {"choose": choose}
+    exec(f"def specialise({signature}): return choose({signature})", scope)
+    overload(generic, jit_options={"fastmath": FLAGS["fastmath"], "error_model": "numpy"})(
+        scope["specialise"]
+    )
+    return function

@@ -19,14 +19,22 @@ from grainmodes.kernels.laws import normal_response, tangential_response
 
 
 @kernel
+def remembered(displacement, c):
+    """What the spring of contact c remembers; 0 where friction was never loaded."""
+    if displacement is None:
+        return 0.0
+    return displacement[c]
+
+
+@kernel
 def contact_forces(interaction, normal, overlap, displacement):
-    """(f_x, f_y, f_T) on grain i of every contact; shape (C, 3)."""
+    """(f_x, f_y, f_T) on grain i of every contact, (C, 3); `displacement` is (C,) or None."""
     forces = np.empty((overlap.shape[0], 3))
     for c in range(overlap.shape[0]):
         nx, ny = normal[c, 0], normal[c, 1]
         f_n, _ = normal_response(interaction.normal, overlap[c])
         f_t, _, _ = tangential_response(
-            interaction.tangential, interaction.normal, overlap[c], displacement[c]
+            interaction.tangential, interaction.normal, overlap[c], remembered(displacement, c)
         )
         forces[c, 0] = f_n * nx + f_t * ny
         forces[c, 1] = f_n * ny - f_t * nx
@@ -36,14 +44,14 @@ def contact_forces(interaction, normal, overlap, displacement):
 
 @kernel
 def contact_stiffness(interaction, normal, distance, overlap, displacement):
-    """K of every contact; shape (C, 3, 3)."""
+    """K of every contact, (C, 3, 3); `displacement` is (C,) or None."""
     stiffness = np.empty((overlap.shape[0], 3, 3))
     for c in range(overlap.shape[0]):
         n = normal[c]
         t = np.array([n[1], -n[0]])
         f_n, slope = normal_response(interaction.normal, overlap[c])
         f_t, by_s, by_xi = tangential_response(
-            interaction.tangential, interaction.normal, overlap[c], displacement[c]
+            interaction.tangential, interaction.normal, overlap[c], remembered(displacement, c)
         )
         for a in range(2):
             for b in range(2):

@@ -17,6 +17,7 @@ import math
 import numpy as np
 
 from grainmodes.kernels.compiler import implements, kernel
+from grainmodes.kernels.contacts import remembered
 from grainmodes.kernels.laws import (
     Elastic,
     ElasticForce,
@@ -98,6 +99,6 @@ def contact_energies(interaction, overlap, displacement):
     energy = np.empty(overlap.shape[0])
     for c in range(overlap.shape[0]):
         energy[c] = normal_energy(interaction.normal, overlap[c]) + tangential_energy(
-            interaction.tangential, interaction.normal, overlap[c], displacement[c]
+            interaction.tangential, interaction.normal, overlap[c], remembered(displacement, c)
         )
     return energy

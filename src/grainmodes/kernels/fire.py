@@ -24,7 +24,7 @@ import numpy as np
 
 from grainmodes.kernels.compiler import kernel
 from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours
-from grainmodes.kernels.repulsion import load, pair_scratch, repulsion
+from grainmodes.kernels.repulsion import load, repulsion
 
 INCREASE, DECREASE, MIXING, MIXING_DECAY, PATIENCE = 1.1, 0.5, 0.1, 0.99, 5
 """f_inc, f_dec, χ_start, f_χ and N_min of paper A."""
@@ -155,10 +155,9 @@ def fire(x, y, diameter, inverse_mass, box_length, strain, normal, settings):
     units = 1.0 / (box_length * RESOLUTION)
     free_path = np.int64(min(0.5 / math.sqrt(2.0) * skin * units / (1.0 + abs(strain)), 2e18))
     neighbours = find_neighbours(x, y, diameter, box_length, strain, skin)
-    scratch = pair_scratch(neighbours, 2)
     origin_x, origin_y, wandered = x.copy(), y.copy(), np.int64(0)
     vx, vy, fx, fy = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
-    repulsion(x, y, box_length, strain, neighbours, normal, scratch, fx, fy)
+    repulsion(x, y, box_length, strain, neighbours, normal, fx, fy)
     goal, limit = aims(x, y, box_length, strain, neighbours, normal, inverse_mass, settings)
     pace = Pace(0.1 * limit, MIXING, 0, 1.0, 0.0, 0.0)
     largest, steps = largest_component(fx, fy), 0
@@ -172,9 +171,8 @@ def fire(x, y, diameter, inverse_mass, box_length, strain, normal, settings):
             wandered = farthest(x, y, origin_x, origin_y)
         if wandered > free_path:
             neighbours = find_neighbours(x, y, diameter, box_length, strain, skin)
-            scratch = pair_scratch(neighbours, 2)
             origin_x[:], origin_y[:], wandered = x, y, np.int64(0)
-        repulsion(x, y, box_length, strain, neighbours, normal, scratch, fx, fy)
+        repulsion(x, y, box_length, strain, neighbours, normal, fx, fy)
         power, speed2, force2 = work(vx, vy, fx, fy, inverse_mass, 0.5 * pace.time_step)
         if force2 <= 2.0 * n * goal * goal:
             largest = largest_component(fx, fy)

@@ -15,13 +15,11 @@ import math
 
 import numpy as np
 
-from grainmodes.kernels.compiler import implements, kernel
+from grainmodes.kernels.compiler import implements, kernel, otherwise
 from grainmodes.kernels.laws import (
-    Elastic,
     ElasticForce,
     SharpCoulomb,
     SharpCoulombForce,
-    SmoothedCoulomb,
     normal_response,
     tangential_scale,
 )
@@ -37,18 +35,8 @@ def admissible(tangential, normal, overlap, displacement):
     raise NotImplementedError("called from compiled code only")
 
 
-@implements(advanced, Elastic)
-def _elastic_advances(tangential, normal, overlap, displacement, slide):
-    return displacement + slide
-
-
-@implements(advanced, SmoothedCoulomb)
-def _smoothed_advances(tangential, normal, overlap, displacement, slide):
-    return displacement + slide
-
-
-@implements(advanced, SharpCoulomb)
-def _sharp_advances(tangential, normal, overlap, displacement, slide):
+@otherwise(advanced)
+def _displacement_advances(tangential, normal, overlap, displacement, slide):
     return displacement + slide
 
 
@@ -64,18 +52,8 @@ def _sharp_force_advances(tangential, normal, overlap, displacement, slide):
     return displacement + tangential.stiffness * scale * slide
 
 
-@implements(admissible, Elastic)
-def _elastic_keeps(tangential, normal, overlap, displacement):
-    return displacement
-
-
-@implements(admissible, SmoothedCoulomb)
-def _smoothed_keeps(tangential, normal, overlap, displacement):
-    return displacement
-
-
-@implements(admissible, ElasticForce)
-def _elastic_force_keeps(tangential, normal, overlap, displacement):
+@otherwise(admissible)
+def _keeps_all(tangential, normal, overlap, displacement):
     return displacement
 
 
