@@ -36,6 +36,16 @@ def check_grains(position, diameter, mass) -> None:
             raise PackingError(f"{name} of grain {grain} is {array[grain]}: not a valid number")
 
 
+def check_springs(history) -> None:
+    """Refuse a history, if there is one, with a displacement that is no number."""
+    if history is None:
+        return
+    bad = np.flatnonzero(~np.isfinite(history.tangential_displacement))
+    if len(bad):
+        i, j, s = (getattr(history, x)[bad[0]] for x in ("i", "j", "tangential_displacement"))
+        raise PackingError(f"the spring between grains {i} and {j} is {s}: not a valid number")
+
+
 def check_box(diameter: np.ndarray, box_length: float, strain: float) -> None:
     """A touching pair must be the image that wrapping s to [−1/2, 1/2) finds: r √(1 + γ²) < L/2."""
     least = 2.0 * diameter.max() * np.sqrt(1.0 + strain**2)

@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from grainmodes.box import PackingError, check_box, check_grains, to_fraction
+from grainmodes.box import PackingError, check_box, check_grains, check_springs, to_fraction
 from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours, matched, touching
 
 
@@ -112,6 +112,7 @@ class Packing:
         mass = diameter**2 if mass is None else np.array(mass, float)
         check_grains(position, diameter, mass)
         check_box(diameter, box_length, strain)
+        check_springs(history)
         y = position[:, 1] / box_length
         x = position[:, 0] / box_length - strain * y
         return cls(
@@ -132,6 +133,7 @@ class Packing:
         """
         check_grains(self.fraction.T, self.diameter, self.mass)
         check_box(self.diameter, self.box_length, self.strain)
+        check_springs(self.history)
         return self
 
     @property

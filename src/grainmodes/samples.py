@@ -13,7 +13,6 @@ from grainmodes.packing import (
     Contacts,
     History,
     Packing,
-    PackingError,
     find_contacts,
     rattlers,
 )
@@ -74,8 +73,14 @@ def check_same(block: Block, n: int, seeds: range) -> None:
 
 
 def trajectory_of(block: Block, number: int) -> Trajectory:
-    """The trajectory in a row of checkpoints."""
+    """The trajectory in a row of checkpoints.
+
+    Raises:
+        ValueError: a number in it is none.
+    """
     row = {name: block.variables[name][number] for name in ("step", "phi_jamming", "iterations")}
+    if not np.isfinite(row["phi_jamming"]):
+        raise ValueError(f"phi_jamming of the checkpoint is {row['phi_jamming']}: no valid number")
     return Trajectory(
         packing_of(block, number),
         int(row["step"]),
@@ -156,19 +161,17 @@ def jammed_packing(block: Block, number: int, interaction: Interaction) -> tuple
 
     Raises:
         ArithmeticError: its relaxation had not converged.
+        PackingError: a number in it is none; the other samples may be sound.
         BlockError: it is not in force balance, although it should be.
     """
     if not block.variables["converged"][number]:
         raise ArithmeticError("the packing did not reach its force balance")
-    try:
-        packing = packing_of(block, number)
-    except PackingError as error:
-        raise BlockError(f"packing of seed {seed_of(block, number)}: {error}") from error
+    packing = packing_of(block, number)
     contacts = find_contacts(packing)
     force, _ = largest(net_force(packing, contacts, interaction))
     mean = mean_contact_force(contacts, interaction)
     allowed = max(BALANCE * mean, force_tolerance(block))
-    if force > allowed:
+    if not force <= allowed:
         raise BlockError(
             f"packing of seed {seed_of(block, number)} is not in force balance: max|F| = "
             f"{force:.2e}, allowed is {allowed:.1e} at a mean contact force of {mean:.2e}"

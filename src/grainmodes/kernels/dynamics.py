@@ -185,12 +185,17 @@ def second_kick(grains, half_step, damping):
 def unrest(grains):
     """max over grains of the force and velocity components, in k_N d^(3/2) and d/t_0.
 
+    Infinite where one of them is no number, which a maximum may pass over and a sum does not.
+
     A's criterion, force with damping alone, is met by a slow overdamped creep too, in which the
     contact forces still outweigh F_Th many times and only the dashpots hide it.
     """
     force = max(np.abs(grains.fx).max(), np.abs(grains.fy).max())
     velocity = max(np.abs(grains.vx).max(), np.abs(grains.vy).max())
     turning = max(np.abs(grains.torque).max(), np.abs(grains.w).max())
+    numbers = grains.fx.sum() + grains.fy.sum() + grains.torque.sum() + grains.w.sum()
+    if not np.isfinite(numbers + grains.vx.sum() + grains.vy.sum()):
+        return np.inf
     return max(force, max(velocity, turning))
 
 
@@ -210,7 +215,7 @@ def carried(old, spring, new):
 def integrate(
     grains, box_length, strain, pairs, spring, interaction, damping, time_step, skin, stop
 ):
-    """Integrate until the unrest is below stop.tolerance, or for stop.steps steps.
+    """Integrate until the unrest is below stop.tolerance or infinite, or for stop.steps steps.
 
     Args: grains (changed in place); pairs, spring the Verlet list and its springs.
     Returns: (pairs, spring, steps taken, unrest).
@@ -223,7 +228,7 @@ def integrate(
     contact_pass(grains, box_length, strain, 0.0, pairs, interaction, damping, spring, scratch)
     second_kick(grains, 0.0, damping)  # adds the drag alone: a run in pieces is the whole run
     left = np.inf
-    while steps < stop.steps and left >= stop.tolerance:
+    while steps < stop.steps and (steps < LOOK or stop.tolerance <= left < np.inf):
         steps += 1
         wandered += kick_and_drift(grains, half_step, time_step, units, strain)
         if wandered > reachable:

@@ -174,7 +174,7 @@ def fire(x, y, diameter, inverse_mass, box_length, strain, normal, settings):
             origin_x[:], origin_y[:], wandered = x, y, np.int64(0)
         repulsion(x, y, box_length, strain, neighbours, normal, fx, fy)
         power, speed2, force2 = work(vx, vy, fx, fy, inverse_mass, 0.5 * pace.time_step)
-        if force2 <= 2.0 * n * goal * goal:
+        if not force2 > 2.0 * n * goal * goal:  # also where it is no number
             largest = largest_component(fx, fy)
         pace = next_pace(pace, power, speed2, force2, limit)
     return largest_component(fx, fy), steps

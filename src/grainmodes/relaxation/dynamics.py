@@ -40,7 +40,11 @@ def move(
     time_step: float,
     stop: Stop,
 ) -> Motion:
-    """Integrate a frictional packing from `velocity` (N, 3) until `stop`."""
+    """Integrate a frictional packing from `velocity` (N, 3) until `stop`.
+
+    Raises:
+        ArithmeticError: the motion grew beyond all bounds: the time step is too long.
+    """
     grains = _grains(packing, velocity)
     pairs = find_neighbours(
         grains.x, grains.y, packing.diameter, packing.box_length, packing.strain, SKIN
@@ -57,6 +61,11 @@ def move(
         SKIN,
         stop,
     )
+    if steps and not unrest < np.inf:
+        raise ArithmeticError(
+            f"the motion grew beyond all bounds within {steps} steps of time_step = {time_step}: "
+            "take a shorter one"
+        )
     moved = replace(
         packing,
         fraction=np.stack([grains.x, grains.y]),
@@ -77,6 +86,9 @@ def relax_damped(
     """From rest until max|F̃| < `tolerance`, judged on the forces without damping.
 
     The unrest allowed is lowered until the contact forces themselves are below the tolerance.
+
+    Raises:
+        ArithmeticError: as `move`.
     """
     now = Motion(packing, np.zeros((packing.n, 3)), 0, np.inf)
     allowed, steps = tolerance, 0

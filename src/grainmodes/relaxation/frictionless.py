@@ -76,6 +76,11 @@ def relax_fast(packing: Packing, normal, tolerance: float, max_iterations: int) 
 
 
 def _fire(packing: Packing, normal, settings: FireSettings, inverse_mass: np.ndarray) -> Relaxed:
+    """FIRE with these settings.
+
+    Raises:
+        ArithmeticError: a force is no number.
+    """
     x, y = packing.fraction.copy()
     max_force, steps = fire(
         x,
@@ -87,6 +92,8 @@ def _fire(packing: Packing, normal, settings: FireSettings, inverse_mass: np.nda
         normal,
         settings._replace(force_tolerance=MARGIN * settings.force_tolerance),
     )
+    if not np.isfinite(max_force):
+        raise ArithmeticError("a force is no number: two grains may lie at the same place")
     relaxed = replace(packing, fraction=np.stack([x, y]))
     return Relaxed(relaxed, max_force < settings.force_tolerance, steps, max_force)
 
