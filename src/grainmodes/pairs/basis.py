@@ -1,9 +1,10 @@
-"""Nearly the eigenvectors of K as a real basis, in single precision, with its factors.
+"""Nearly the eigenvectors of K as a real basis, in single precision, with its inverse.
 
 | symbol      | name    | shape                                                          |
 | ----------- | ------- | -------------------------------------------------------------- |
 | V           | vectors | (M, M), columns of norm 1: u, or for a pair Re u and then Im u |
 | their norms | size    | (M,): Im u may be tiny against Re u                            |
+| V⁻¹         | inverse | (M, M), its rows the left vectors                              |
 """
 
 from __future__ import annotations
@@ -15,18 +16,36 @@ import scipy.linalg
 
 
 class Basis(NamedTuple):
-    """V and its factors."""
+    """V and V⁻¹."""
 
     vectors: np.ndarray
     size: np.ndarray
-    factors: tuple[np.ndarray, np.ndarray]
+    inverse: np.ndarray
 
     @classmethod
     def of(cls, vectors: np.ndarray) -> Basis:
         """The basis of vectors (M, M) of any norm."""
         size = np.linalg.norm(vectors, axis=0)
         columns = (vectors / size).astype(np.float32)
-        return cls(columns, size, scipy.linalg.lu_factor(columns))
+        return cls(columns, size, scipy.linalg.inv(columns))
+
+    def with_units(self, new: np.ndarray) -> Basis:
+        """The basis in M coordinates, (M,) bool the new ones, with a unit vector for each."""
+        if not new.any():
+            return self
+        vectors = np.zeros((len(new), len(new)), np.float32)
+        size = len(self.size)
+        vectors[~new, :size] = self.vectors
+        vectors[np.flatnonzero(new), np.arange(size, len(new))] = 1.0
+        return Basis.of(vectors)
+
+    def without(self, gone: np.ndarray) -> Basis:
+        """The basis without coordinates, (M,) bool, and the vectors that live there most."""
+        if not gone.any():
+            return self
+        there = np.linalg.norm(self.vectors[gone], axis=0)
+        kept = np.sort(np.argsort(there, kind="stable")[: -int(gone.sum())])
+        return Basis.of(self.vectors[np.ix_(~gone, kept)])
 
     def columns(self, at: np.ndarray) -> np.ndarray:
         """Vectors (M, K) in double precision, with their norms."""
@@ -34,17 +53,15 @@ class Basis(NamedTuple):
 
     def rows(self, at: np.ndarray) -> np.ndarray:
         """Rows of V⁻¹ with these norms, as columns (M, K): left vectors."""
-        unit = np.zeros((len(self.size), len(at)), np.float32)
-        unit[at, np.arange(len(at))] = 1.0
-        return self.combined_rows(unit).astype(float) / self.size[at]
+        return self.inverse[at].T.astype(float) / self.size[at]
 
     def combined_rows(self, coordinates: np.ndarray) -> np.ndarray:
         """V⁻ᵀ c of coordinates (M, K) in columns of norm 1."""
-        return scipy.linalg.lu_solve(self.factors, coordinates.astype(np.float32), trans=1)
+        return self.inverse.T @ coordinates.astype(np.float32)
 
     def coordinates(self, field: np.ndarray) -> np.ndarray:
         """V⁻¹ f of fields (M, K), in columns of norm 1."""
-        return scipy.linalg.lu_solve(self.factors, field.astype(np.float32))
+        return self.inverse @ field.astype(np.float32)
 
     def products(self, field: np.ndarray) -> np.ndarray:
         """Vᵀ f of fields (M, K), with columns of norm 1."""

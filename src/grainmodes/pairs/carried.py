@@ -6,7 +6,7 @@ columns V, the next K is nearly diagonal:
     B = V⁻¹ K V = Λ + V⁻¹ (K V − V Λ)
 
 and `nearly_diagonal` gives its eigenvalues and the new vectors, V X. V is real: for a complex pair
-it holds Re u and Im u. It need not be exact, and is kept in single precision with its factors; the
+it holds Re u and Im u. It need not be exact, and is kept in single precision with its inverse; the
 residual K V − V Λ is not, so that λ is right far beyond that. What matters is the distance from V
 to the eigenvectors, told by the coupling, and each pass takes it to its square:
 
@@ -16,7 +16,9 @@ to the eigenvectors, told by the coupling, and each pass takes it to its square:
 |                  | sharpened (`sharpening`), to a residual below `SHARP`                 |
 | else             | another pass from the new vectors, `MOST` at most, then LAPACK        |
 
-Grains that come to carry load or cease to change the size of K: then, too, LAPACK solves it.
+Grains that come to carry load or cease to change the size of K. For one state it stands on the
+grains of both, the basis with a unit vector for every coordinate of a grain that came; the vectors
+that have gone to the grains that ceased are then left out.
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from grainmodes.pairs.basis import Basis
-from grainmodes.pairs.definition import Pairs, dense_eigenpairs, selected
+from grainmodes.pairs.definition import Loaded, Pairs, dense_eigenpairs, selected
 from grainmodes.pairs.nearly_diagonal import BROAD, NearlyDiagonal, Solved, solved
 from grainmodes.pairs.plane import Plane
 from grainmodes.pairs.sharpening import nearly_meeting, sharpened
@@ -46,26 +48,39 @@ class Carried:
 
     def __init__(self) -> None:
         self._basis = Basis.of(np.zeros((0, 0)))
+        self._held = np.zeros(0, bool)
         self.dense = True
 
-    def find(self, matrix: sparse.csr_array, null: np.ndarray) -> Pairs:
-        """Every complex pair of a matrix (M, M); its zero modes are carried like all others.
+    def find(self, loaded: Loaded) -> Pairs:
+        """Every complex pair of K; its zero modes are carried like all others.
 
         Raises:
             numpy.linalg.LinAlgError: the dense eigensolver did not converge.
         """
+        if len(loaded.held) != len(self._held):
+            return self._anew(loaded)
+        either = np.repeat(self._held | loaded.held, 3)
+        came, stays = (np.repeat(of, 3)[either] for of in (~self._held, loaded.held))
+        self._basis = self._basis.with_units(came)
+        pairs = self._carried_on(_on(stays, loaded.matrix))
+        if pairs is None:
+            return self._anew(loaded)
+        self._basis, self._held = self._basis.without(~stays), loaded.held
         self.dense = False
-        if matrix.shape == self._basis.vectors.shape:
-            for _ in range(MOST):
-                found = self._pass(matrix)
-                if found is None:
-                    break
-                if found.coupling.max() < ENOUGH:
-                    couples = nearly_meeting(found.values, found.coupling)
-                    planes = sharpened(matrix, self._basis, found.values, couples)
-                    if all(plane.residual < SHARP for plane in planes):
-                        return self._pairs(found.values, couples, planes)
-        return self._anew(matrix)
+        return Pairs(pairs.value, pairs.right[stays], pairs.left[stays])
+
+    def _carried_on(self, matrix: sparse.csr_array) -> Pairs | None:
+        """The pairs of the first pass that is believed; None where there is none."""
+        for _ in range(MOST):
+            found = self._pass(matrix)
+            if found is None:
+                break
+            if found.coupling.max() < ENOUGH:
+                couples = nearly_meeting(found.values, found.coupling)
+                planes = sharpened(matrix, self._basis, found.values, couples)
+                if all(plane.residual < SHARP for plane in planes):
+                    return self._pairs(found.values, couples, planes)
+        return None
 
     def _pass(self, matrix: sparse.csr_array) -> Solved | None:
         """The eigenpairs of B; the basis goes on to them."""
@@ -92,10 +107,18 @@ class Carried:
             np.hstack([left, *(plane.left_vectors[:, :1] for plane in met)]),
         )
 
-    def _anew(self, matrix: sparse.csr_array) -> Pairs:
+    def _anew(self, loaded: Loaded) -> Pairs:
         """By LAPACK, the vectors kept."""
-        self.dense = True
-        values, left, right = dense_eigenpairs(matrix)
+        values, left, right = dense_eigenpairs(loaded.matrix)
         order = np.lexsort((-values.imag, values.real))
         self._basis = Basis.of(np.where(values.imag < 0.0, -right.imag, right.real)[:, order])
+        self._held, self.dense = loaded.held, True
         return selected(values, right, left)
+
+
+def _on(these: np.ndarray, matrix: sparse.csr_array) -> sparse.csr_array:
+    """A matrix (K, K) in the K of M coordinates that are `these`, (M,) bool; 0 in the others."""
+    if these.all():
+        return matrix
+    place = sparse.eye_array(len(these), format="csr")[:, np.flatnonzero(these)]
+    return (place @ matrix @ place.T).tocsr()

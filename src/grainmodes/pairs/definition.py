@@ -33,6 +33,17 @@ ROUNDING = 1e-14
 """max|K − Kᵀ| / max|K| of a symmetric J."""
 
 
+class Loaded(NamedTuple):
+    """K (3N', 3N') of the N' grains that carry load, with its zero modes (3N', 2), orthonormal.
+
+    `held`: (N,) bool, which grains they are.
+    """
+
+    matrix: sparse.csr_array
+    null: np.ndarray
+    held: np.ndarray
+
+
 class Pairs(NamedTuple):
     """Complex pairs of a state, λ_r ascending; the other of each is its conjugate."""
 

@@ -8,32 +8,49 @@ same one if each has its largest part in the other and both parts are above `SAM
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from grainmodes.pairs.definition import Pairs
+from grainmodes.pairs.plane import orthonormal
 
 SAME = 0.5
 """Part of the new plane in the old one from which two pairs are the same."""
 
 
-def matched(before: Pairs, after: Pairs) -> list[tuple[int, int]]:
+class Planes(NamedTuple):
+    """R and Lᵀ with Lᵀ R = 1, (P, 2, n) in single precision: they are only compared."""
+
+    right: np.ndarray
+    left: np.ndarray
+
+    @classmethod
+    def of(cls, pairs: Pairs) -> Planes:
+        """The planes of pairs, R orthonormal."""
+        right, left = (
+            orthonormal(np.stack([of.real.T, of.imag.T], axis=1))
+            for of in (pairs.right, pairs.left)
+        )
+        left = np.linalg.inv(left @ right.swapaxes(1, 2)) @ left
+        return cls(right.astype(np.float32), left.astype(np.float32))
+
+
+def matched(old: Planes, new: Planes) -> list[tuple[int, int]]:
     """Places (old, new) of the pairs that two states have in common."""
-    if not len(before.value) or not len(after.value):
+    if not len(old.right) or not len(new.right):
         return []
-    part = np.minimum(parts(before, after), parts(after, before).T)
+    part = np.minimum(parts(old, new), parts(new, old).T)
     forth, back = part.argmax(axis=1), part.argmax(axis=0)
     return [(i, j) for i, j in enumerate(forth.tolist()) if back[j] == i and part[i, j] > SAME]
 
 
-def parts(of: Pairs, other: Pairs) -> np.ndarray:
+def parts(of: Planes, other: Planes) -> np.ndarray:
     """Part of the planes of `other` in those `of`, (P, P')."""
-    right, left = _planes(of.right), _planes(of.left)
-    inner = np.einsum("pna,pnb->pab", left, right)
-    within = np.tensordot(left, _planes(other.right), axes=(1, 1))  # (P, 2, P', 2)
-    projected = np.einsum("pab,pbqc->pqac", np.linalg.inv(inner), within)
-    return np.linalg.norm(projected, axis=(2, 3)) / np.sqrt(2.0)
+    within = _rows(of.left) @ _rows(other.right).T
+    squares = (within**2).reshape(len(of.left), 2, -1, 2)
+    return np.sqrt(0.5 * squares.sum(axis=(1, 3)))
 
 
-def _planes(vectors: np.ndarray) -> np.ndarray:
-    """Orthonormal bases (P, n, 2) of Re u, Im u for vectors (n, P)."""
-    return np.linalg.qr(np.stack([vectors.real.T, vectors.imag.T], axis=2))[0]
+def _rows(planes: np.ndarray) -> np.ndarray:
+    return planes.reshape(-1, planes.shape[2])

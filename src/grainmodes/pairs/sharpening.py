@@ -16,7 +16,7 @@ import scipy.linalg
 import scipy.sparse as sparse
 
 from grainmodes.pairs.basis import Basis
-from grainmodes.pairs.plane import Plane, plane_of
+from grainmodes.pairs.plane import Plane, planes_of
 
 CLOSE = 1e-4
 """|λ1 − λ2|, k_N d^(1/2)/m, within which a pass does not tell a pair from two real modes."""
@@ -56,7 +56,7 @@ def sharpened(
     if not len(couples):
         return []
     right, left = (of(couples.ravel()) for of in (basis.columns, basis.rows))
-    planes = _planes(matrix, right, left)
+    planes = planes_of(matrix, right, left)
     right, left = (np.hstack([getattr(p, side) for p in planes]) for side in ("right", "left"))
     block = scipy.linalg.block_diag(*(p.block for p in planes))
     middle = np.repeat([0.5 * p.sum for p in planes], 2)
@@ -66,13 +66,7 @@ def sharpened(
     left += basis.combined_rows(
         _divided(_without(others, couples), middle, values.conj(), 1.0 / basis.size)
     )
-    return _planes(matrix, right, left)
-
-
-def _planes(matrix: sparse.csr_array, right: np.ndarray, left: np.ndarray) -> list[Plane]:
-    """The planes of each two columns of vectors (M, 2K)."""
-    firsts = range(0, right.shape[1], 2)
-    return [plane_of(matrix, right[:, k : k + 2], left[:, k : k + 2]) for k in firsts]
+    return planes_of(matrix, right, left)
 
 
 def _without(coordinates: np.ndarray, couples: np.ndarray) -> np.ndarray:

@@ -17,21 +17,22 @@ The first ones are located (`exceptional_points`), which replaces this word by a
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple, Protocol
 
 import numpy as np
-import scipy.sparse as sparse
 
 from grainmodes.packing import Packing
 from grainmodes.pairs.carried import Carried
 from grainmodes.pairs.definition import (
+    Loaded,
     Pairs,
     dense_pairs,
     mass_weighted,
     on_all_grains,
     translations,
 )
-from grainmodes.pairs.following import matched
+from grainmodes.pairs.following import Planes, matched
 from grainmodes.pairs.from_symmetric import pairs_from_symmetric
 from grainmodes.pairs.plane import plane_of
 from grainmodes.parameters.pairs import PairChoices
@@ -57,8 +58,8 @@ class Detector(Protocol):
     dense: bool
     """Whether LAPACK solved the last one."""
 
-    def find(self, matrix: sparse.csr_array, null: np.ndarray) -> Pairs:
-        """Every complex pair of a matrix (M, M) with the zero modes `null` (M, 2), orthonormal."""
+    def find(self, loaded: Loaded) -> Pairs:
+        """Every complex pair of K on the grains that carry load."""
 
 
 class ByLapack:
@@ -66,9 +67,9 @@ class ByLapack:
 
     dense = True
 
-    def find(self, matrix: sparse.csr_array, null: np.ndarray) -> Pairs:
-        """Every complex pair of a matrix (M, M)."""
-        return dense_pairs(matrix)
+    def find(self, loaded: Loaded) -> Pairs:
+        """Every complex pair of K."""
+        return dense_pairs(loaded.matrix)
 
 
 class FromSymmetricPart:
@@ -76,13 +77,13 @@ class FromSymmetricPart:
 
     dense = False
 
-    def find(self, matrix: sparse.csr_array, null: np.ndarray) -> Pairs:
-        """Every complex pair of a matrix (M, M) that is found.
+    def find(self, loaded: Loaded) -> Pairs:
+        """Every complex pair of K that is found.
 
         Raises:
             ArithmeticError: the eigenvectors of the symmetric part are incomplete.
         """
-        return pairs_from_symmetric(matrix, null)
+        return pairs_from_symmetric(loaded.matrix, loaded.null)
 
 
 DETECTORS: dict[str, type[Detector]] = {
@@ -93,11 +94,17 @@ DETECTORS: dict[str, type[Detector]] = {
 """How pairs are found, by the name of the choice."""
 
 
-class Seen(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Seen:
     """A state with its pairs, their vectors on all grains."""
 
     balance: Balance
     pairs: Pairs
+
+    @cached_property
+    def planes(self) -> Planes:
+        """The planes of the pairs."""
+        return Planes.of(self.pairs)
 
     @property
     def strain(self) -> float:
@@ -210,7 +217,7 @@ class PairWalk:
 
     def _follow(self, before: Seen, jumped: bool) -> None:
         """Hand every life on to its pair in the new state; end some and begin some."""
-        common = dict(matched(before.pairs, self.now.pairs))
+        common = dict(matched(before.planes, self.now.planes))
         changed = any(network_changes(before.balance, self.now.balance))
         kind = JUMP if jumped else UNDECIDED if changed else COALESCENCE
         step = before.strain, self.now.strain
@@ -218,20 +225,21 @@ class PairWalk:
         for old, life in enumerate(self.alive):
             if old not in common:
                 self.lives[life].death, self.lives[life].death_kind = step, kind
-                self._locate(life, before.side(old), self.now.balance, jumped)
+                self._locate(life, before, old, self.now.balance, jumped)
         for new in range(len(self.now.pairs.value)):
             if new not in heirs:
                 heirs[new] = len(self.lives)
                 self.lives.append(Life(step, kind))
-                self._locate(heirs[new], self.now.side(new), before.balance, jumped)
+                self._locate(heirs[new], self.now, new, before.balance, jumped)
         self.alive = [heirs[new] for new in range(len(self.now.pairs.value))]
 
-    def _locate(self, life: int, pair: Side, other: Balance, jumped: bool) -> None:
+    def _locate(self, life: int, seen: Seen, place: int, other: Balance, jumped: bool) -> None:
         """Look at a birth or death closely, if it is one of the first."""
-        born = other.packing.strain < pair.strain
+        born = other.packing.strain < seen.strain
         known = sum(one.born == born for one in self.located)
         if jumped or known >= self.asked.located:
             return
+        pair = seen.side(place)
         try:
             point = located(pair, other, self.choices, self.asked.bracket)
         except ArithmeticError:
@@ -263,13 +271,15 @@ class PairWalk:
     def _in_numbers(self, fastest: complex, condition: float) -> Count:
         of_jacobian, balance = np.nan, self.now.balance
         if self.of_jacobian:
-            matrix, null = balance.matrix.tocsr(), translations(np.ones(balance.backbone.n))
-            of_jacobian = len(self.of_jacobian.find(matrix, null).value)
+            null = translations(np.ones(balance.backbone.n))
+            loaded = Loaded(balance.matrix.tocsr(), null, balance.held)
+            of_jacobian = len(self.of_jacobian.find(loaded).value)
         pairs, dense = len(self.now.pairs.value), self.detector.dense
         return Count(self.now.strain, pairs, of_jacobian, fastest, condition, dense)
 
 
 def _seen(balance: Balance, detector: Detector) -> Seen:
-    found = detector.find(mass_weighted(balance), translations(balance.backbone.mass))
+    null = translations(balance.backbone.mass)
+    found = detector.find(Loaded(mass_weighted(balance), null, balance.held))
     right, left = (on_all_grains(of, balance.held) for of in (found.right, found.left))
     return Seen(balance, Pairs(found.value, right, left))
