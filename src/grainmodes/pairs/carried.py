@@ -47,7 +47,7 @@ class Carried:
     """Finds pairs by carrying the eigenvectors of the last matrix on; `dense`: LAPACK did it."""
 
     def __init__(self) -> None:
-        self._basis = Basis.of(np.zeros((0, 0)))
+        self._basis: Basis | None = None
         self._held = np.zeros(0, bool)
         self.dense = True
 
