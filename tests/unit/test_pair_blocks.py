@@ -90,8 +90,8 @@ def test_lapack_finds_the_same_pairs(packing, found):
     assert found.variables["pair_dense"][0].sum() < 10
 
 
-def test_the_symmetric_part_leads_to_the_same_pairs(packing, found):
-    asked = replace(ASKED, detection="symmetric")
+def test_windows_find_the_same_pairs(packing, found):
+    asked = replace(ASKED, detection="windows")
     other = pairs_block(packings(packing), LAW, SHEAR, asked).variables
     assert np.array_equal(other["pair_count"][0], found.variables["pair_count"][0])
     assert_allclose(other["pair_growth"], found.variables["pair_growth"][:1], atol=1e-6)

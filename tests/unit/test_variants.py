@@ -8,7 +8,7 @@ import pytest
 from grainmodes import variant_blocks
 from grainmodes.dataset import VARIABLES
 from grainmodes.dataset.files import Block
-from grainmodes.forces import forces_on_i
+from grainmodes.forces import forces_on_i, sliding
 from grainmodes.jacobian import jacobian, stiffness_of
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import find_contacts
@@ -52,6 +52,18 @@ def test_only_springs_at_their_threshold_have_two_sides(law):
     assert apart[~at].max() < 1e-7 < 1e-2 < apart[at].min()
     np.testing.assert_array_equal(slips[at, 2, 2], 0.0)
     assert np.all(sticks[at, 2, 2] < 0.0)
+
+
+@pytest.mark.parametrize("law", SHARP, ids=law_name)
+def test_contacts_slide_whose_tangential_force_is_coulombs(law):
+    rule, (_, contacts) = interaction(law), half_slipped(law)
+    force = forces_on_i(contacts, rule)[:, :2]
+    normal, tangential = (
+        np.abs(np.einsum("ca,ca->c", force, axis)) for axis in (contacts.normal, contacts.tangent)
+    )
+    at = tangential >= (1.0 - 1e-9) * law.friction_coefficient * normal
+    assert 0 < at.sum() < len(at)
+    np.testing.assert_array_equal(sliding(contacts, rule), at)
 
 
 @pytest.mark.parametrize("law", LAWS, ids=law_name)

@@ -87,7 +87,8 @@ def _all_modes(axes: Axes, few: pd.DataFrame) -> None:
     axes.plot([], [], color="0.6", label=f"mode {mode:.0f} and the others")
     axes.axhline(1.0, color="k", ls="--", lw=0.6)
     axes.set(xlabel=r"$\gamma$", ylabel=r"$\langle u^m | u^n \rangle$", ylim=(0.0, 1.1))
-    axes.legend(loc="upper center", bbox_to_anchor=(0.4, 0.88))
+    axes.locator_params(axis="x", nbins=5)
+    axes.legend(loc="center right")
 
 
 def _one_pair(half, pair: pd.DataFrame) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-DETECTIONS = ("carried", "dense", "symmetric")
+DETECTIONS = ("carried", "dense", "windows")
 
 
 @dataclass(frozen=True)
@@ -12,7 +12,7 @@ class PairChoices:
     """Complex pairs along a quasistatic shear (C, Sec. V).
 
     `detection`: "carried" takes the eigenvectors of the state before to a nearly diagonal J,
-    "dense" solves every state anew, "symmetric" starts from its symmetric part.
+    "dense" solves every state anew, "windows" too, without a dense general solve.
     The first `located` births and as many deaths are bracketed to `bracket`, and their two modes
     are followed over `around` steps to both sides.
     """

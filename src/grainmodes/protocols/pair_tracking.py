@@ -23,6 +23,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from grainmodes.packing import Packing
+from grainmodes.pairs.by_windows import pairs_by_windows
 from grainmodes.pairs.carried import Carried
 from grainmodes.pairs.definition import (
     Loaded,
@@ -33,7 +34,6 @@ from grainmodes.pairs.definition import (
     translations,
 )
 from grainmodes.pairs.following import Planes, matched
-from grainmodes.pairs.from_symmetric import pairs_from_symmetric
 from grainmodes.pairs.plane import plane_of
 from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
@@ -72,24 +72,24 @@ class ByLapack:
         return dense_pairs(loaded.matrix)
 
 
-class FromSymmetricPart:
-    """Every matrix by its symmetric part: for states too large for LAPACK."""
+class ByWindows:
+    """Every matrix solved anew, in windows: for states too large for LAPACK."""
 
     dense = False
 
     def find(self, loaded: Loaded) -> Pairs:
-        """Every complex pair of K that is found.
+        """Every complex pair of K.
 
         Raises:
-            ArithmeticError: the eigenvectors of the symmetric part are incomplete.
+            ArithmeticError: an iteration did not converge, or the eigenvalues do not add up.
         """
-        return pairs_from_symmetric(loaded.matrix, loaded.null)
+        return pairs_by_windows(loaded.matrix, loaded.null)
 
 
 DETECTORS: dict[str, type[Detector]] = {
     "carried": Carried,
     "dense": ByLapack,
-    "symmetric": FromSymmetricPart,
+    "windows": ByWindows,
 }
 """How pairs are found, by the name of the choice."""
 

@@ -1,4 +1,4 @@
-"""Complex pairs from the eigenvectors of the symmetric part: those of LAPACK."""
+"""Complex pairs by windows of Arnoldi's method: those of LAPACK."""
 
 from dataclasses import replace
 
@@ -7,9 +7,9 @@ import pytest
 import scipy.sparse as sparse
 
 from grainmodes.kernels.laws import interaction
-from grainmodes.pairs import from_symmetric
+from grainmodes.pairs import by_windows
+from grainmodes.pairs.by_windows import pairs_by_windows
 from grainmodes.pairs.definition import dense_pairs, mass_weighted, translations
-from grainmodes.pairs.from_symmetric import eigenvectors, pairs_from_symmetric
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.quasistatic import first_balance, step_to
@@ -31,7 +31,7 @@ def sheared(coefficient: float) -> sparse.csr_array:
 @pytest.mark.parametrize("coefficient", [0.5, 10.0])
 def test_the_pairs_are_those_of_lapack(coefficient):
     matrix = sheared(coefficient)
-    found = pairs_from_symmetric(matrix, translations(np.ones(matrix.shape[0] // 3)))
+    found = pairs_by_windows(matrix, translations(np.ones(matrix.shape[0] // 3)))
     expected = dense_pairs(matrix)
     assert len(expected.value) > 0
     np.testing.assert_allclose(found.value, expected.value, atol=1e-12)
@@ -42,22 +42,17 @@ def test_the_pairs_are_those_of_lapack(coefficient):
     assert np.abs(left).max() < 1e-11
 
 
-def test_windows_give_the_eigenvectors_of_the_symmetric_part(monkeypatch):
+def test_what_is_missing_is_seen(monkeypatch):
     matrix = sheared(10.0)
-    symmetric, null = 0.5 * (matrix + matrix.T), translations(np.ones(matrix.shape[0] // 3))
-    dense, _ = eigenvectors(symmetric, null)
-    monkeypatch.setattr(from_symmetric, "DENSE_UP_TO", 0)
-    values, vectors = eigenvectors(symmetric, null)
-    np.testing.assert_allclose(values, dense, atol=1e-12)
-    product = vectors.T.astype(float) @ (symmetric @ vectors.astype(float))
-    np.testing.assert_allclose(product, np.diag(values), atol=1e-5)
-    through = pairs_from_symmetric(matrix, null)
-    np.testing.assert_allclose(through.value, dense_pairs(matrix).value, atol=1e-12)
+    monkeypatch.setattr(by_windows, "STEP", 5.0)
+    monkeypatch.setattr(by_windows.Disc, "low", property(lambda self: -np.inf))
+    with pytest.raises(ArithmeticError, match="eigenvalues were found"):
+        pairs_by_windows(matrix, translations(np.ones(matrix.shape[0] // 3)))
 
 
 def test_a_symmetric_matrix_has_no_pairs():
     matrix = sheared(10.0)
-    found = pairs_from_symmetric(
+    found = pairs_by_windows(
         0.5 * (matrix + matrix.T).tocsr(), translations(np.ones(matrix.shape[0] // 3))
     )
     assert len(found.value) == 0 and found.right.shape == (matrix.shape[0], 0)

@@ -1,0 +1,183 @@
+"""Every complex pair of one large K, window by window, without a dense general solve.
+
+Around a real shift σ Arnoldi's method on (K − σ)⁻¹, one sparse factorisation, gives the eigenvalues
+nearest to σ: all those in a disc. Discs that overlap go up the whole spectrum,
+
+    σ' = σ + (1 + STEP) ρ,   the gap halved where the next disc, radius ρ', does not reach back,
+
+and each is taken between two cuts, in the widest gaps of the overlaps. Nothing is known of K
+beforehand, and what is found is as exact as LAPACK's. That nothing is missing or counted twice is
+seen from three numbers of K that are known without any solution:
+
+    their number M,   Σλ = tr K,   Σλ² = tr K²
+
+The left vectors come from Kᵀ in the same way, only where a window holds pairs. The translations,
+known zero modes on both sides, are kept out of Arnoldi's vectors.
+
+What it can miss is what LAPACK can: two eigenvalues that have just met, λ_i < `REAL`.
+
+| symbol | name   | meaning                                             |
+| ------ | ------ | --------------------------------------------------- |
+| σ, ρ   | shift, radius | middle and radius of a disc without a gap    |
+| K      | matrix | (M, M)                                              |
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+import scipy.sparse as sparse
+from scipy.sparse.linalg import LinearOperator, eigs, splu
+
+from grainmodes.pairs.definition import Pairs, selected
+from grainmodes.stability import REAL
+
+NEAREST = 60
+"""Eigenvalues of a disc: fewer need more factorisations, more need more restarts."""
+
+KRYLOV = 140
+"""Vectors of Arnoldi's method: twice as many eigenvalues as are wanted, and some more."""
+
+STEP = 0.8
+"""Where the next disc stands, in radii above this one."""
+
+RIGHT = 1e-9
+"""What Σλ and Σλ² may be off by, in units of M max|K| and M max|K|²."""
+
+SAME = 1e-6
+"""Distance, in units of max|K|, within which λ of Kᵀ is that of K."""
+
+
+class Disc(NamedTuple):
+    """All eigenvalues (k,) within `radius` of a shift, with right vectors (M, k)."""
+
+    shift: float
+    radius: float
+    value: np.ndarray
+    right: np.ndarray
+
+    @property
+    def low(self) -> float:
+        """σ − ρ."""
+        return self.shift - self.radius
+
+    @property
+    def high(self) -> float:
+        """σ + ρ."""
+        return self.shift + self.radius
+
+    def between(self, low: float, high: float) -> np.ndarray:
+        """Places of its eigenvalues with low <= λ_r < high."""
+        return np.flatnonzero((self.value.real >= low) & (self.value.real < high))
+
+
+def pairs_by_windows(matrix: sparse.csr_array, null: np.ndarray) -> Pairs:
+    """Every complex pair of K (M, M).
+
+    Args:
+        null: its zero modes on both sides (M, Z), orthonormal.
+
+    Raises:
+        ArithmeticError: an iteration did not converge, or the eigenvalues do not add up.
+    """
+    discs = _covering(lambda shift: _disc(matrix, null, shift), _scale(matrix), _top(matrix))
+    cuts = [-np.inf, *(_cut(one, two) for one, two in pairwise(discs)), np.inf]
+    taken = [disc.between(*ends) for disc, ends in zip(discs, pairwise(cuts), strict=True)]
+    _add_up(matrix, null, np.concatenate([d.value[at] for d, at in zip(discs, taken, strict=True)]))
+    found = [_with_left(matrix, null, d, at) for d, at in zip(discs, taken, strict=True)]
+    value, right, left = (np.concatenate(of, axis=-1) for of in zip(*found, strict=True))
+    return selected(value, right, left)
+
+
+def _covering(disc_at: Callable[[float], Disc], scale: float, top: float) -> list[Disc]:
+    """Discs that overlap one after the other, from below 0 to above every eigenvalue."""
+    discs, ahead = [disc_at(-1e-4 * scale)], []
+    while discs[-1].high < top:
+        last = discs[-1]
+        if ahead and ahead[-1].low < last.high:
+            discs.append(ahead.pop())
+        elif ahead:
+            ahead.append(disc_at(0.5 * (last.high + ahead[-1].low)))
+        else:
+            ahead.append(disc_at(last.high + STEP * last.radius))
+    return discs
+
+
+def _disc(matrix: sparse.csr_array, null: np.ndarray, shift: float) -> Disc:
+    """The eigenvalues nearest to a shift, but for the furthest one and its conjugate."""
+    value, right = _nearest(matrix, null, shift)
+    distance = np.abs(value - shift)
+    inside = distance < (1.0 - 1e-9) * distance.max()
+    return Disc(shift, float(distance.max()), value[inside], right[:, inside])
+
+
+def _nearest(
+    matrix: sparse.csr_array, null: np.ndarray, shift: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Eigenvalues (k,) nearest to a shift and their right vectors (M, k), by Arnoldi's method."""
+    size = matrix.shape[0]
+    count = min(NEAREST, size // 4)
+    one = sparse.eye_array(size, format="csc")
+    factors = splu((matrix - shift * one).tocsc(), permc_spec="MMD_AT_PLUS_A")
+
+    def without_null(vector: np.ndarray) -> np.ndarray:
+        return vector - null @ (null.T @ vector)
+
+    inverse = LinearOperator((size, size), lambda x: without_null(factors.solve(x)), dtype=float)
+    start = without_null(np.random.default_rng(0).standard_normal(size))
+    width = count * KRYLOV // NEAREST
+    try:
+        value, vectors = eigs(inverse, count, v0=start, ncv=width, tol=1e-13)
+    except RuntimeError as error:
+        raise ArithmeticError(
+            f"the eigenvalues near {shift:.6g} were not found: {error}"
+        ) from error
+    return shift + 1.0 / value, vectors
+
+
+def _cut(lower: Disc, upper: Disc) -> float:
+    """The middle of the widest gap between eigenvalues in the overlap of two discs."""
+    low, high = max(upper.low, lower.shift), min(lower.high, upper.shift)
+    inner = np.concatenate([lower.value.real, upper.value.real])
+    places = np.sort(np.concatenate([[low, high], inner[(inner > low) & (inner < high)]]))
+    widest = int(np.argmax(np.diff(places)))
+    return float(places[widest] + places[widest + 1]) / 2.0
+
+
+def _with_left(
+    matrix: sparse.csr_array, null: np.ndarray, disc: Disc, at: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The pairs (P,) among the eigenvalues of a disc, their right and left vectors (M, P)."""
+    at = at[disc.value.imag[at] > REAL]
+    value, right = disc.value[at], disc.right[:, at]
+    if not len(at):
+        return value, right, right
+    of_transposed, vectors = _nearest(matrix.T, null, disc.shift)
+    distance = np.abs(of_transposed.conj()[:, None] - value)
+    if distance.min(axis=0).max() > SAME * _scale(matrix):
+        raise ArithmeticError("the eigenvalues of the transposed matrix are others")
+    return value, right, vectors[:, distance.argmin(axis=0)]
+
+
+def _add_up(matrix: sparse.csr_array, null: np.ndarray, value: np.ndarray) -> None:
+    """Refuse eigenvalues that are not all those of K."""
+    size, scale = matrix.shape[0], _scale(matrix)
+    if len(value) + null.shape[1] != size:
+        raise ArithmeticError(f"{len(value) + null.shape[1]} of {size} eigenvalues were found")
+    first, second = matrix.trace(), float((matrix * matrix.T).sum())
+    off = max(abs(value.sum() - first) / scale, abs((value**2).sum() - second) / scale**2)
+    if off > RIGHT * size:
+        raise ArithmeticError(f"the eigenvalues do not add up to the trace: off by {off:.1e}")
+
+
+def _scale(matrix: sparse.csr_array) -> float:
+    """max|K|."""
+    return float(np.abs(matrix.data).max())
+
+
+def _top(matrix: sparse.csr_array) -> float:
+    """Above every λ_r: the largest row sum of |K|."""
+    return float(np.abs(matrix).sum(axis=1).max())
