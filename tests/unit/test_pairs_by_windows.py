@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy.linalg
 import scipy.sparse as sparse
 
 from grainmodes.kernels.laws import interaction
@@ -48,6 +49,18 @@ def test_what_is_missing_is_seen(monkeypatch):
     monkeypatch.setattr(by_windows.Disc, "low", property(lambda self: -np.inf))
     with pytest.raises(ArithmeticError, match="eigenvalues were found"):
         pairs_by_windows(matrix, translations(np.ones(matrix.shape[0] // 3)))
+
+
+def test_pairs_far_above_the_real_axis_are_found():
+    tall = np.array([[0.5, 0.4], [-0.4, 0.5]])
+    draws = np.random.default_rng(4)
+    noise = 1e-3 * draws.standard_normal((402, 402))
+    ladder = np.diag(np.linspace(0.1, 1.5, 400))
+    matrix = sparse.csr_array(scipy.linalg.block_diag(ladder, tall) + noise + noise.T)
+    found, expected = pairs_by_windows(matrix, np.zeros((402, 0))), dense_pairs(matrix)
+    assert len(expected.value) == 1 and expected.value.imag[0] > 0.3
+    np.testing.assert_allclose(found.value, expected.value, atol=1e-12)
+    np.testing.assert_allclose(found.condition, expected.condition, rtol=1e-6)
 
 
 def test_a_symmetric_matrix_has_no_pairs():

@@ -1,7 +1,7 @@
-"""Every complex pair of one large K, window by window, without a dense general solve.
+"""Every complex pair of one large K, disc by disc, without a dense general solve.
 
-Around a real shift σ Arnoldi's method on (K − σ)⁻¹, one sparse factorisation, gives the eigenvalues
-nearest to σ: all those in a disc. Discs that overlap go up the whole spectrum,
+Around a shift σ Arnoldi's method on (K − σ)⁻¹, one sparse factorisation, gives the eigenvalues
+nearest to σ: all those in a disc. Discs on the real axis that overlap go up the whole spectrum,
 
     σ' = σ + (1 + STEP) ρ,   the gap halved where the next disc, radius ρ', does not reach back,
 
@@ -11,15 +11,18 @@ seen from three numbers of K that are known without any solution:
 
     their number M,   Σλ = tr K,   Σλ² = tr K²
 
-The left vectors come from Kᵀ in the same way, only where a window holds pairs. The translations,
+Few pairs stand so far from the real axis that no disc reaches them. Where the number says so they
+are looked for around σ + iρ, σ + 2iρ, σ + 4iρ …, at every second, fourth … σ, until it is right.
+
+The left vectors come from Kᵀ in the same way, only where a disc holds pairs. The translations,
 known zero modes on both sides, are kept out of Arnoldi's vectors.
 
 What it can miss is what LAPACK can: two eigenvalues that have just met, λ_i < `REAL`.
 
-| symbol | name   | meaning                                             |
-| ------ | ------ | --------------------------------------------------- |
-| σ, ρ   | shift, radius | middle and radius of a disc without a gap    |
-| K      | matrix | (M, M)                                              |
+| symbol | name          | meaning                                  |
+| ------ | ------------- | ---------------------------------------- |
+| σ, ρ   | shift, radius | middle and radius of a disc without gaps |
+| K      | matrix        | (M, M)                                   |
 """
 
 from __future__ import annotations
@@ -38,8 +41,11 @@ from grainmodes.stability import REAL
 NEAREST = 60
 """Eigenvalues of a disc: fewer need more factorisations, more need more restarts."""
 
-KRYLOV = 140
-"""Vectors of Arnoldi's method: twice as many eigenvalues as are wanted, and some more."""
+FEW = 20
+"""Eigenvalues of a disc around a complex shift, above the dense ones."""
+
+WIDER = 2.4
+"""Vectors of Arnoldi's method for every eigenvalue that is wanted."""
 
 STEP = 0.8
 """Where the next disc stands, in radii above this one."""
@@ -54,7 +60,7 @@ SAME = 1e-6
 class Disc(NamedTuple):
     """All eigenvalues (k,) within `radius` of a shift, with right vectors (M, k)."""
 
-    shift: float
+    shift: complex
     radius: float
     value: np.ndarray
     right: np.ndarray
@@ -62,16 +68,20 @@ class Disc(NamedTuple):
     @property
     def low(self) -> float:
         """σ − ρ."""
-        return self.shift - self.radius
+        return self.shift.real - self.radius
 
     @property
     def high(self) -> float:
         """σ + ρ."""
-        return self.shift + self.radius
+        return self.shift.real + self.radius
 
     def between(self, low: float, high: float) -> np.ndarray:
         """Places of its eigenvalues with low <= λ_r < high."""
         return np.flatnonzero((self.value.real >= low) & (self.value.real < high))
+
+    def among(self, at: np.ndarray) -> Disc:
+        """The disc with some of its eigenvalues only."""
+        return self._replace(value=self.value[at], right=self.right[:, at])
 
 
 def pairs_by_windows(matrix: sparse.csr_array, null: np.ndarray) -> Pairs:
@@ -85,9 +95,12 @@ def pairs_by_windows(matrix: sparse.csr_array, null: np.ndarray) -> Pairs:
     """
     discs = _covering(lambda shift: _disc(matrix, null, shift), _scale(matrix), _top(matrix))
     cuts = [-np.inf, *(_cut(one, two) for one, two in pairwise(discs)), np.inf]
-    taken = [disc.between(*ends) for disc, ends in zip(discs, pairwise(cuts), strict=True)]
-    _add_up(matrix, null, np.concatenate([d.value[at] for d, at in zip(discs, taken, strict=True)]))
-    found = [_with_left(matrix, null, d, at) for d, at in zip(discs, taken, strict=True)]
+    parts = [
+        disc.among(disc.between(*ends)) for disc, ends in zip(discs, pairwise(cuts), strict=True)
+    ]
+    parts += _above(matrix, null, discs, np.concatenate([part.value for part in parts]))
+    _add_up(matrix, null, np.concatenate([part.value for part in parts]))
+    found = [_with_left(matrix, null, part) for part in parts]
     value, right, left = (np.concatenate(of, axis=-1) for of in zip(*found, strict=True))
     return selected(value, right, left)
 
@@ -106,7 +119,26 @@ def _covering(disc_at: Callable[[float], Disc], scale: float, top: float) -> lis
     return discs
 
 
-def _disc(matrix: sparse.csr_array, null: np.ndarray, shift: float) -> Disc:
+def _above(
+    matrix: sparse.csr_array, null: np.ndarray, discs: list[Disc], known: np.ndarray
+) -> list[Disc]:
+    """Pairs with their conjugates that stand above discs, until their number is right."""
+    found, missing = [], matrix.shape[0] - null.shape[1] - len(known)
+    for stride in (2**layer for layer in range(len(discs).bit_length())):
+        for disc in discs[::stride]:
+            if missing <= 0 or stride * disc.radius > 2.0 * _tallest(matrix):
+                break
+            high = _disc(matrix, null, complex(disc.shift, stride * disc.radius))
+            apart = np.abs(high.value[:, None] - known).min(axis=1) > SAME * _scale(matrix)
+            new = high.among(np.flatnonzero(apart & (high.value.imag > 0.0)))
+            known = np.concatenate([known, new.value])
+            both = np.concatenate([new.value, new.value.conj()])
+            found.append(new._replace(value=both, right=np.hstack([new.right, new.right.conj()])))
+            missing -= len(both)
+    return found
+
+
+def _disc(matrix: sparse.csr_array, null: np.ndarray, shift: complex) -> Disc:
     """The eigenvalues nearest to a shift, but for the furthest one and its conjugate."""
     value, right = _nearest(matrix, null, shift)
     distance = np.abs(value - shift)
@@ -115,32 +147,32 @@ def _disc(matrix: sparse.csr_array, null: np.ndarray, shift: float) -> Disc:
 
 
 def _nearest(
-    matrix: sparse.csr_array, null: np.ndarray, shift: float
+    matrix: sparse.csr_array, null: np.ndarray, shift: complex
 ) -> tuple[np.ndarray, np.ndarray]:
     """Eigenvalues (k,) nearest to a shift and their right vectors (M, k), by Arnoldi's method."""
     size = matrix.shape[0]
-    count = min(NEAREST, size // 4)
+    wanted = FEW if np.iscomplexobj(shift) else NEAREST
+    count, width = (min(of, size // most) for of, most in ((wanted, 4), (WIDER * wanted, 2)))
     one = sparse.eye_array(size, format="csc")
     factors = splu((matrix - shift * one).tocsc(), permc_spec="MMD_AT_PLUS_A")
 
     def without_null(vector: np.ndarray) -> np.ndarray:
         return vector - null @ (null.T @ vector)
 
-    inverse = LinearOperator((size, size), lambda x: without_null(factors.solve(x)), dtype=float)
-    start = without_null(np.random.default_rng(0).standard_normal(size))
-    width = count * KRYLOV // NEAREST
+    start = without_null(np.random.default_rng(0).standard_normal(size).astype(type(shift)))
+    inverse = LinearOperator(
+        (size, size), lambda x: without_null(factors.solve(x)), dtype=start.dtype
+    )
     try:
-        value, vectors = eigs(inverse, count, v0=start, ncv=width, tol=1e-13)
+        value, vectors = eigs(inverse, count, v0=start, ncv=int(width), tol=1e-13)
     except RuntimeError as error:
-        raise ArithmeticError(
-            f"the eigenvalues near {shift:.6g} were not found: {error}"
-        ) from error
+        raise ArithmeticError(f"no eigenvalues near {shift:.6g}: {error}") from error
     return shift + 1.0 / value, vectors
 
 
 def _cut(lower: Disc, upper: Disc) -> float:
     """The middle of the widest gap between eigenvalues in the overlap of two discs."""
-    low, high = max(upper.low, lower.shift), min(lower.high, upper.shift)
+    low, high = max(upper.low, lower.shift.real), min(lower.high, upper.shift.real)
     inner = np.concatenate([lower.value.real, upper.value.real])
     places = np.sort(np.concatenate([[low, high], inner[(inner > low) & (inner < high)]]))
     widest = int(np.argmax(np.diff(places)))
@@ -148,18 +180,17 @@ def _cut(lower: Disc, upper: Disc) -> float:
 
 
 def _with_left(
-    matrix: sparse.csr_array, null: np.ndarray, disc: Disc, at: np.ndarray
+    matrix: sparse.csr_array, null: np.ndarray, disc: Disc
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The pairs (P,) among the eigenvalues of a disc, their right and left vectors (M, P)."""
-    at = at[disc.value.imag[at] > REAL]
-    value, right = disc.value[at], disc.right[:, at]
-    if not len(at):
-        return value, right, right
-    of_transposed, vectors = _nearest(matrix.T, null, disc.shift)
-    distance = np.abs(of_transposed.conj()[:, None] - value)
+    pairs = disc.among(np.flatnonzero(disc.value.imag > REAL))
+    if not len(pairs.value):
+        return pairs.value, pairs.right, pairs.right
+    of_transposed, vectors = _nearest(matrix.T, null, np.conj(disc.shift))
+    distance = np.abs(of_transposed.conj()[:, None] - pairs.value)
     if distance.min(axis=0).max() > SAME * _scale(matrix):
         raise ArithmeticError("the eigenvalues of the transposed matrix are others")
-    return value, right, vectors[:, distance.argmin(axis=0)]
+    return pairs.value, pairs.right, vectors[:, distance.argmin(axis=0)]
 
 
 def _add_up(matrix: sparse.csr_array, null: np.ndarray, value: np.ndarray) -> None:
@@ -181,3 +212,8 @@ def _scale(matrix: sparse.csr_array) -> float:
 def _top(matrix: sparse.csr_array) -> float:
     """Above every λ_r: the largest row sum of |K|."""
     return float(np.abs(matrix).sum(axis=1).max())
+
+
+def _tallest(matrix: sparse.csr_array) -> float:
+    """Above every λ_i: the largest row sum of |K − Kᵀ|/2, a bound of its norm."""
+    return 0.5 * _top(matrix - matrix.T)
