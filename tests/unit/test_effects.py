@@ -50,7 +50,7 @@ def arrays_of(kernel) -> set[str]:
 
 def test_fire_holds_no_rotation_torque_or_history():
     advanced(placed(16, 0, Hertz(1.0), Compression()), 0.8, Hertz(1.0), Compression())
-    assert arrays_of(fire) == PLACES | {"scratch"}
+    assert arrays_of(fire) == PLACES
     laws = {str(types[6]) for types in fire.overloads}
     assert laws <= {"Hertz(float64 x 1)", "Harmonic(float64 x 1)"}
 
