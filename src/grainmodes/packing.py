@@ -21,7 +21,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from grainmodes.box import PackingError, check_box, check_grains, check_springs, to_fraction, to_step
+from grainmodes.box import (
+    PackingError,
+    check_box,
+    check_grains,
+    check_springs,
+    to_fraction,
+    to_step,
+)
 from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours, matched, touching
 
 
