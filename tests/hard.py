@@ -6,7 +6,9 @@ import numpy as np
 import scipy.linalg
 
 import naive
-from grainmodes.packing import Packing
+from grainmodes.jacobian import jacobian
+from grainmodes.packing import Packing, find_contacts
+from grainmodes.rigidity import AffineStep
 from grainmodes.shift import SymmetricShift
 
 
@@ -40,6 +42,18 @@ def eigenpairs_near(shift: SymmetricShift, sigma: float, size: int, block: int):
         following = np.linalg.qr(image - basis @ (basis.T @ image))[0]
     theta, y = scipy.linalg.eigh(basis.T @ shift.solve(basis))
     return sigma + 1.0 / theta, basis @ y
+
+
+def with_all_grains(packing: Packing, interaction) -> tuple[float, float]:
+    """(g, lowest eigenvalue) with every grain in J, loose or not; g is NaN where J is singular."""
+    contacts = find_contacts(packing)
+    step = AffineStep(packing, contacts, interaction, loaded=False)
+    matrix = jacobian(packing, contacts, interaction).toarray()
+    try:
+        u = np.linalg.solve(matrix[2:, 2:], step.force.ravel()[2:])
+    except np.linalg.LinAlgError:
+        return np.nan, np.linalg.eigvalsh(matrix)[0]
+    return step.moduli(np.append(np.zeros(2), u)).g, np.linalg.eigvalsh(matrix)[0]
 
 
 def rounds_removing(contacts, n: int, threshold: int, rounds: int) -> np.ndarray:
