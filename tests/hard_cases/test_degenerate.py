@@ -109,7 +109,7 @@ def test_a_spring_at_its_threshold_slides(normal, tangential):
 
 @pytest.mark.parametrize("normal", ["hertz", "harmonic"])
 def test_a_smoothed_spring_has_one_stiffness_at_its_threshold(normal):
-    """Both sides agree at s*; a difference across the s* of the sharp law is the mean of its two."""
+    """Both sides agree at s*; a difference across that of the sharp law is the mean of its two."""
     law, overlap = ContactLaw(normal, "smoothed_coulomb", 0.3, 0.4), np.full(3, 0.01)
     s = naive.threshold(law, overlap) * [1.0 - 1e-9, 1.0, 1.0 + 1e-9]
     stiffness = stiffness_of(lying_along_x(overlap, s), interaction(law))
