@@ -50,6 +50,13 @@ def check_grains(position, diameter, mass) -> None:
             raise PackingError(f"{name} of grain {grain} is {array[grain]}: not a valid number")
 
 
+def check_rotation(rotation) -> None:
+    """Refuse rotations (N,), if there are any, that are no numbers."""
+    bad = [] if rotation is None else np.flatnonzero(~np.isfinite(rotation))
+    if len(bad):
+        raise PackingError(f"rotation of grain {bad[0]} is {rotation[bad[0]]}: not a valid number")
+
+
 def check_springs(history) -> None:
     """Refuse a history, if there is one, with a displacement that is no number."""
     if history is None:
