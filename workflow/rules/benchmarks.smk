@@ -17,3 +17,12 @@ rule growth:
         "Measure how costs grow with N, into results/costs.yaml."
     shell:
         "python {input.scripts} results/costs.yaml"
+
+
+rule effects:
+    input:
+        scripts="tests/benchmarks/effects.py",
+    message:
+        "Measure what each effect costs at each stage, into results/effects.csv."
+    shell:
+        "python {input.scripts} results/effects.csv"
