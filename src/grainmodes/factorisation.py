@@ -11,6 +11,7 @@ inside its supernodes.
 
 from __future__ import annotations
 
+import os
 from importlib.util import find_spec
 from typing import Protocol
 from weakref import finalize
@@ -176,6 +177,8 @@ class Pardiso:
 
         self._error = PyPardisoError
         self._solver = PyPardisoSolver(mtype=-2)
+        # Else the next solver searches the disk for MKL again, as long as a factorisation takes.
+        os.environ.setdefault("PYPARDISO_MKL_RT", self._solver.libmkl._name)
         for number, value in PARDISO_CHOICES.items():
             self._solver.set_iparm(number, value)
         places = sparse.csc_array(
