@@ -22,7 +22,7 @@ rule measure_accuracy:
     input:
         script="workflow/accuracy/measure.py",
         code=lambda wildcards: sources_of_accuracy(
-            *("diagram", "packings", "table", wildcards.name)
+            *("diagram", "packings", "table", "kernel_polynomial", "sharpened", wildcards.name)
         ),
     output:
         f"{DIAGRAM}.csv",
