@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from accuracy import NAMES, draw, strain_step, table
+from accuracy import NAMES, draw, force_tolerance, strain_step, table
 from accuracy.diagram import FAILED, Row, Sample, Size, apart, knee, row, timed
 
 SCRIPTS = Path(__file__).parents[2] / "workflow" / "accuracy"
@@ -53,7 +53,9 @@ def grown(megabytes: int) -> int:
 
 
 def test_memory_is_that_of_a_process_of_its_own():
+    held = bytearray(500 * 2**20)
     much, little = apart(grown, 400), apart(grown, 1)
+    assert len(held) > little.megabytes * 2**20
     assert much.value == 400 * 2**20
     assert 300.0 < much.megabytes - little.megabytes < 500.0
     assert 0.0 < much.seconds < 5.0
@@ -144,3 +146,21 @@ def test_step_strains(monkeypatch):
     assert error["Newton, both sides", 1e-6] < 1e-8
     assert [row.setting for row in rows if row.default] == [1e-6]
     assert {row.failed for row in rows} == {0}
+
+
+def test_force_tolerances(monkeypatch):
+    monkeypatch.setattr(force_tolerance, "TOLERANCES", (1e-5, 1e-14))
+    rows = list(force_tolerance.measure(Size((16,), 2)))
+    error = {(row.curve, row.setting): row.error for row in rows}
+    for name in ("FIRE", "fast"):
+        for what in ("of g", "of the ten lowest eigenvalues"):
+            assert error[f"{name}, {what}", 1e-14] < 1e-8 < error[f"{name}, {what}", 1e-5]
+        assert error[f"{name}, of the contacts", 1e-14] == 0.0
+    assert {(row.curve[:4], row.setting) for row in rows if row.default} == {("fast", 1e-14)}
+
+
+def test_contacts_are_compared_in_the_numbers_of_all_grains():
+    packing = force_tolerance.compressed(16, 1, 0.85)
+    exact = force_tolerance.reference(force_tolerance.relax_fast, packing)
+    one = exact._replace(contacts=exact.contacts - {min(exact.contacts)} | {(99, 98)})
+    assert one.errors(exact) == (0.0, 0.0, 2 / len(exact.contacts))

@@ -16,6 +16,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from multiprocessing import get_context
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,6 +26,9 @@ WITHIN = 3.0
 
 PER_MEGABYTE = 2**20 if sys.platform == "darwin" else 2**10
 """Units of `ru_maxrss`: bytes there, kilobytes elsewhere."""
+
+STATUS = Path("/proc/self/status")
+"""Where Linux says what a process holds."""
 
 
 class Row(NamedTuple):
@@ -101,18 +105,37 @@ FAILED = Sample(math.nan, math.nan)
 
 
 def row(
-    curve: str, setting: float, samples: list[Sample], megabytes: float, default: bool = False
+    curve: str,
+    setting: float,
+    samples: list[Sample],
+    megabytes: float,
+    default: bool = False,
+    mean: bool = False,
 ) -> Row:
-    """Medians over the samples that came to a result, NaN where none did."""
+    """Medians over the samples that came to a result, NaN where none did.
+
+    Args:
+        mean: the error is a mean instead, and its spread the standard error.
+    """
     seconds, errors = np.array([s for s in samples if not math.isnan(s.error)]).reshape(-1, 2).T
-    low, error, high = _quartiles(errors)
+    error, spread = (_mean if mean else _median)(errors)
     counts = len(errors), len(samples) - len(errors)
-    time = _quartiles(seconds)[1]
-    return Row(curve, setting, time, megabytes, error, 0.5 * (high - low), *counts, default)
+    return Row(curve, setting, _median(seconds)[0], megabytes, error, spread, *counts, default)
 
 
-def _quartiles(values: np.ndarray) -> list[float]:
-    return np.quantile(values, [0.25, 0.5, 0.75]).tolist() if len(values) else [math.nan] * 3
+def _median(values: np.ndarray) -> tuple[float, float]:
+    """Median and half the interquartile range."""
+    if not len(values):
+        return math.nan, math.nan
+    low, middle, high = np.quantile(values, [0.25, 0.5, 0.75])
+    return float(middle), float(0.5 * (high - low))
+
+
+def _mean(values: np.ndarray) -> tuple[float, float]:
+    """Mean and standard error."""
+    if len(values) < 2:
+        return (float(values[0]) if len(values) else math.nan), math.nan
+    return float(values.mean()), float(values.std(ddof=1) / math.sqrt(len(values)))
 
 
 class Apart(NamedTuple):
@@ -133,10 +156,25 @@ def _called(function: Callable, *arguments) -> Apart:
     start = time.process_time()
     value = function(*arguments)
     seconds = time.process_time() - start
-    return Apart(value, seconds, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / PER_MEGABYTE)
+    return Apart(value, seconds, peak_megabytes())
 
 
-def timed(function: Callable, *arguments, at_least: float = 0.0) -> tuple[Any, float]:
+def peak_megabytes() -> float:
+    """Peak resident memory of this process.
+
+    On Linux `ru_maxrss` of a child includes what its parent held when it started the child.
+    """
+    if STATUS.is_file():
+        lines = STATUS.read_text(encoding="utf-8").splitlines()
+        return next(int(line.split()[1]) for line in lines if line.startswith("VmHWM")) / 2**10
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / PER_MEGABYTE
+
+
+LEAST = 0.02
+"""CPU seconds for which a short call is repeated, to be seen by the clock."""
+
+
+def timed(function: Callable, *arguments, at_least: float = LEAST) -> tuple[Any, float]:
     """What a function returned, and its CPU seconds: the mean of calls for `at_least` seconds.
 
     Where kernels are compiled or loaded first, call it once on little.

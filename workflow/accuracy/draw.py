@@ -18,6 +18,7 @@ from typing import NamedTuple
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 import matplotlib.style
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -80,7 +81,7 @@ def draw(figure: Figure, table: Table) -> None:
         _curve(against_setting, of[name], look, edges, lambda row: row.setting)
         _memory(memory, of[name], look)
     for axes in (against_time, against_setting):
-        axes.set(xscale="log", yscale="log", ylim=(edges[0] / 2, edges[1] * 2))
+        axes.set(xscale="log", yscale="log", ylim=(edges[0] / 4, edges[1] * 2))
     against_setting.tick_params(labelleft=False)
     against_time.set(xlabel=f"CPU s per {words['unit']}", ylabel=words["error"])
     against_setting.set(xlabel=words["setting"])
@@ -106,8 +107,9 @@ def _curve(axes: Axes, rows: list[Row], look: Look, edges, across: Callable, lab
     counted = [row for row in rows if edges[0] < row.error < edges[1]]
     x, y = [across(row) for row in counted], [row.error for row in counted]
     style = {"color": look.color, "marker": look.marker}
-    bars = [row.spread for row in counted]
-    axes.errorbar(x, y, bars, linestyle=look.linestyle, elinewidth=0.5, label=label, **style)
+    axes.errorbar(
+        x, y, _bars(counted), linestyle=look.linestyle, elinewidth=0.5, label=label, **style
+    )
     partly = [row for row in counted if row.failed]
     axes.plot([across(r) for r in partly], [r.error for r in partly], ls="", mfc="white", **style)
     for row in rows:
@@ -118,6 +120,13 @@ def _curve(axes: Axes, rows: list[Row], look: Look, edges, across: Callable, lab
     for row in rows:
         if row.default:
             _ring(axes, row, "default", edges, across)
+
+
+def _bars(rows: list[Row]) -> np.ndarray:
+    """By the same factor down as up, so that a spread as large as its error does not reach zero."""
+    error, spread = (np.array([getattr(row, name) for row in rows]) for name in ("error", "spread"))
+    spread = np.nan_to_num(spread)
+    return np.stack([spread / (1.0 + spread / error), spread])
 
 
 def _ring(axes: Axes, row: Row | None, kind: str, edges, across: Callable) -> None:

@@ -34,9 +34,6 @@ PHI, RULE = 0.9, interaction(ContactLaw(kt=1.0))
 
 STRAINS = tuple(10.0**-k for k in range(2, 10))
 
-LEAST = 0.02
-"""CPU seconds for which a call is repeated, to be seen by the clock."""
-
 
 class Way(NamedTuple):
     """How g is found, and how a step is relaxed."""
@@ -100,7 +97,7 @@ def sampled(name: str, strain: float, packings: list[Packing]) -> list[Sample]:
 def _sample(find: Callable, packing: Packing, protocol: StepStrain) -> Sample:
     exact = rigidity(packing, RULE).unloaded.g
     try:
-        g, seconds = timed(find, packing, protocol, at_least=LEAST)
+        g, seconds = timed(find, packing, protocol)
     except SAMPLE_ERRORS:
         return FAILED
     return Sample(seconds, abs(g / exact - 1.0))
