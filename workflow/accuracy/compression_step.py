@@ -8,12 +8,12 @@ and only the packing asked for gets its final balance. A compression is chaotic:
 opens at another moment may lead to another packing of the same ensemble, so that two protocols are
 judged on the same random placements, sample by sample, in two ways:
 
-    packings    the share of samples that end in another packing than the reference's: P differs
-    x̄           |mean of x − x_ref| / standard deviation of x_ref, for x = φ_J, P, Z, G
+    other packings     the share of samples that end in another packing than the reference's
+    mean of x          (m² + e²)^(1/2) / σ, for x = φ_J, P, Z, G: m the mean of x − x_ref, e its
+                       standard error, σ the standard deviation of x_ref: what m may well be
 
-with the standard error of either as its bar. Where a protocol only moves samples about within the
-ensemble, the first is large and the second is within its bar. The Kolmogorov–Smirnov distance of
-the φ_J from the reference's stands beside its mean.
+Where a protocol only moves samples about within the ensemble, m stays below e, and e falls with the
+share of other packings. The Kolmogorov–Smirnov distance of φ_J stands beside its mean.
 
 φ_J is the last grid point without a mean contact force of 1e-10: a coarse grid rounds it down.
 Reference: a fifth of the smallest Φ with the smallest b of all.
@@ -114,10 +114,10 @@ def other_packings(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
 
 
 def shift_of_mean(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
-    """|mean of x − x_ref| in standard deviations of x_ref, and its standard error; both (S,)."""
+    """What the mean of x − x_ref may well be, and its standard error, both / σ; of (S,) samples."""
     unit, difference = exact.std(ddof=1), found - exact
     error = difference.std(ddof=1) / np.sqrt(len(found))
-    return float(abs(difference.mean()) / unit), float(error / unit)
+    return float(np.hypot(difference.mean(), error) / unit), float(error / unit)
 
 
 def distance(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
@@ -125,12 +125,12 @@ def distance(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
     return float(ks_2samp(found, exact).statistic), float(EQUAL_ENSEMBLES / np.sqrt(len(found)))
 
 
-FEW = {"packings": (other_packings, P), "mean φ_J": (shift_of_mean, PHI_J)}
+FEW = {"other packings": (other_packings, P), r"mean $\phi_J$": (shift_of_mean, PHI_J)}
 ALL = FEW | {
     "mean P": (shift_of_mean, P),
     "mean Z": (shift_of_mean, Z),
     "mean G": (shift_of_mean, G),
-    "KS of φ_J": (distance, PHI_J),
+    r"KS of $\phi_J$": (distance, PHI_J),
 }
 """What is measured, and on which column."""
 
@@ -138,7 +138,7 @@ DIAGRAM = Diagram(
     title="Compression step and intermediate balance, φ = 0.87, N = 64",
     setting="Φ",
     unit="packing",
-    error="share of other packings; shift of the mean / σ; KS distance",
+    error="share, shift of a mean / σ, or KS distance",
     reference="Φ = 2e-5, b = 1e-5, from the same random placements",
     small=Size((64,), 32),
     large=Size((256, 1024), 32),

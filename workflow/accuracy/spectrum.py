@@ -156,14 +156,15 @@ SMALL, NEVER = range(DENSE_MODES_UP_TO + 1), range(0)
 BEYOND_BINS = range(DENSE_BINS_UP_TO + 1, 10**9)
 BEYOND_MODES = range(DENSE_MODES_UP_TO + 1, 10**9)
 
-BOTH = ("D(ω)", "ψ^R")
+DENSITY, SHARE = r"$D(\omega)$", r"$\psi^R$"
+BOTH = (DENSITY, SHARE)
 
 METHODS = {
     "dense symmetric": Method(dense_symmetric, BOTH, (), None, DENSE_MODES_UP_TO, SMALL),
     "dense general": Method(dense_general, BOTH, (), None, DENSE_MODES_UP_TO, NEVER),
     "windows": Method(windows, BOTH, (), None, WINDOWS_UP_TO, BEYOND_MODES),
-    "counts": Method(counted, ("D(ω)",), FINENESS, SHIPPED.fineness, np.inf, BEYOND_BINS),
-    "counted twice": Method(counted_twice, ("ψ^R",), CELLS, SHIPPED.substeps, np.inf, BEYOND_BINS),
+    "counts": Method(counted, (DENSITY,), FINENESS, SHIPPED.fineness, np.inf, BEYOND_BINS),
+    "counted twice": Method(counted_twice, (SHARE,), CELLS, SHIPPED.substeps, np.inf, BEYOND_BINS),
     "kernel polynomial": Method(stochastic, BOTH, MOMENTS, None, np.inf, NEVER),
 }
 
@@ -221,7 +222,7 @@ def error_of_share(found: Found, exact: Found) -> float:
     return float(np.abs(found.rotational - exact.rotational) @ modes / modes.sum())
 
 
-QUANTITIES = {"D(ω)": (FAINT, error_of_density), "ψ^R": (MIXED, error_of_share)}
+QUANTITIES = {DENSITY: (FAINT, error_of_density), SHARE: (MIXED, error_of_share)}
 """Where each is asked for, and its error."""
 
 DIAGRAM = Diagram(
