@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from accuracy import NAMES, draw, force_tolerance, strain_step, table
+from accuracy import NAMES, draw, force_tolerance, growth, strain_step, table, time_step
 from accuracy.diagram import FAILED, Row, Sample, Size, apart, knee, row, timed
 
 SCRIPTS = Path(__file__).parents[2] / "workflow" / "accuracy"
@@ -133,8 +133,14 @@ def test_bad_input_gets_one_sentence(tmp_path, words, sentence):
 
 def test_every_diagram_has_a_module_and_says_what_it_needs():
     files = {path.stem for path in SCRIPTS.glob("*.py")}
+<<<<<<< HEAD
     shared = {"__init__", "diagram", "draw", "measure", "packings", "table"}
     assert files - shared - {"kernel_polynomial", "loops", "sharpened"} == set(NAMES)
+=======
+    assert files - {"__init__", "diagram", "draw", "growth", "measure", "packings", "table"} == set(
+        NAMES
+    )
+>>>>>>> accuracy
 
 
 def test_step_strains(monkeypatch):
@@ -164,3 +170,39 @@ def test_contacts_are_compared_in_the_numbers_of_all_grains():
     exact = force_tolerance.reference(force_tolerance.relax_fast, packing)
     one = exact._replace(contacts=exact.contacts - {min(exact.contacts)} | {(99, 98)})
     assert one.errors(exact) == (0.0, 0.0, 2 / len(exact.contacts))
+
+
+def slope(rows: list[Row], curve: str) -> float:
+    """Decades of error per decade of the setting, between the two shortest."""
+    coarse, fine = [row for row in rows if row.curve == curve][1:]
+    return math.log(coarse.error / fine.error) / math.log(coarse.setting / fine.setting)
+
+
+@pytest.fixture(scope="module")
+def stepped():
+    """Two time steps on few grains, and one that is too long."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(time_step, "TIME_STEPS", (4.0, 4e-3, 1e-3))
+        patch.setattr(time_step, "GROWING", 10)
+        return list(time_step.measure(Size((16,), 1)))
+
+
+@pytest.mark.parametrize(
+    ("damping", "orders"), [("no damping", (2, 2, 3, 3)), ("dashpots", (1, 1, 3, 2))]
+)
+def test_orders_of_velocity_verlet(stepped, damping, orders):
+    spans, quantities = time_step.SPANS, time_step.QUANTITIES
+    found = [slope(stepped, f"{damping}, {q} after {s}") for s in spans for q in quantities]
+    assert found == pytest.approx(orders, abs=0.15)
+
+
+def test_the_growth_rate_of_a_release_has_order_two():
+    state = growth.leaving(16, 4)
+    errors = [state.rate(step) / state.omega.imag - 1.0 for step in (0.2, 0.05)]
+    assert errors[0] / errors[1] == pytest.approx(16.0, rel=0.02)
+    assert growth.leaving(10, 1) is None
+
+
+def test_a_time_step_beyond_the_limit_has_failed(stepped):
+    beyond = [row for row in stepped if row.setting == 4.0]
+    assert {(row.samples, row.failed) for row in beyond} == {(0, 1)}
