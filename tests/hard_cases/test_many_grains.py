@@ -9,7 +9,7 @@ from grainmodes.kernels.damping import Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Hertz, interaction
 from grainmodes.kernels.neighbours import RESOLUTION
-from grainmodes.packing import Packing, find_contacts
+from grainmodes.packing import Packing, PackingError, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fast
@@ -69,3 +69,19 @@ def test_a_balance_that_crosses_the_boundary_again_and_again_stays_one(crossings
     assert np.ptp(moved, axis=1).max() < 1e-13
     assert rest(end) < 1e-14
     assert rest(hard.drifted(packing, step, steps)) > 3e-14
+
+
+@pytest.mark.parametrize("boxes", [0.3, 0.5, -0.75, 1.0, 12.25, 2.0**40])
+def test_a_step_of_any_number_of_boxes_is_taken_whole(boxes):
+    """A plain cast to 64 bits takes less than half a box; the longest ones all end at −1/2."""
+    packing, step = at_rest(), np.zeros((16, 2))
+    step[3] = boxes * packing.box_length
+    moved = (packing.displaced(step).fraction - packing.fraction)[:, 3] * RESOLUTION
+    expected = (boxes + 0.5) % 1.0 - 0.5
+    np.testing.assert_allclose(moved, expected, atol=1e-15)
+    with np.errstate(invalid="ignore"):
+        cast = np.rint(boxes / RESOLUTION).astype(np.int64) * RESOLUTION
+    assert (cast == pytest.approx(expected, abs=1e-15)) == (abs(boxes) <= 0.5)
+    step[3] = np.nan
+    with pytest.raises(PackingError, match="the step of grain 3"):
+        packing.displaced(step)
