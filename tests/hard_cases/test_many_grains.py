@@ -54,7 +54,7 @@ def test_fractions_hold_a_balance_that_positions_lose():
 def test_sixty_five_thousand_grains_come_to_rest():
     packing = quenched(65536, 0.9)
     assert rest(packing) < 1e-14 < rest(hard.in_absolute_doubles(packing))
-    assert rigidity(packing, LAW).unloaded.g == pytest.approx(0.014, abs=0.002)
+    assert rigidity(packing, LAW).unloaded.g == pytest.approx(0.02, abs=0.002)
 
 
 @pytest.mark.parametrize("crossings", [1_000, pytest.param(1_000_000, marks=pytest.mark.slow)])
@@ -76,7 +76,8 @@ def test_a_step_of_any_number_of_boxes_is_taken_whole(boxes):
     """A plain cast to 64 bits takes less than half a box; the longest ones all end at −1/2."""
     packing, step = at_rest(), np.zeros((16, 2))
     step[3] = boxes * packing.box_length
-    moved = (packing.displaced(step).fraction - packing.fraction)[:, 3] * RESOLUTION
+    with np.errstate(invalid="raise"):
+        moved = (packing.displaced(step).fraction - packing.fraction)[:, 3] * RESOLUTION
     expected = (boxes + 0.5) % 1.0 - 0.5
     np.testing.assert_allclose(moved, expected, atol=1e-15)
     with np.errstate(invalid="ignore"):
