@@ -105,7 +105,8 @@ def test_rows_of_another_machine_are_refused(asked, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("seconds", "next_one"), [([], 0.0), ([3.0], 3.0), ([1.0, 3.0], 9.0), ([4.0, 2.0], 2.0)]
+    ("seconds", "next_one"),
+    [([], 0.0), ([3.0], 3.0), ([1.0, 3.0], 9.0), ([4.0, 2.0], 2.0), ([0.01, 1.0], 8.0)],
 )
 def test_the_next_size_is_foreseen(seconds, next_one):
     assert growth.expected(seconds) == next_one
