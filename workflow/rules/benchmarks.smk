@@ -19,3 +19,12 @@ rule growth:
         "Measure how time and memory grow with N, into results/growth.csv, .png, .pdf, costs.yaml."
     shell:
         "python {input.scripts} results --longest {params.longest}"
+
+
+rule effects:
+    input:
+        scripts="tests/benchmarks/effects.py",
+    message:
+        "Measure what each effect costs at each stage, into results/effects.csv."
+    shell:
+        "python {input.scripts} results/effects.csv"
