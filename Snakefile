@@ -5,6 +5,7 @@
 #   snakemake -n                                        what would run
 #   snakemake -j1 results/default/rigidity/n~256/phi~0.873/kt~3e-05/seeds~0003-0003.nc
 #   snakemake -j1 benchmarks                            a table of speeds
+#   snakemake -j2 accuracy                              what each numerical choice costs and buys
 #
 # trajectories -> packings -> {rigidity, step_strain, spectra, probes, shear, variants} -> points
 #                        \-> fields, close_up -> figures    points -> ensemble -> figures, claims
@@ -19,6 +20,7 @@ include: "workflow/rules/checks.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/benchmarks.smk"
+include: "workflow/rules/accuracy.smk"
 
 
 rule all:

@@ -60,6 +60,16 @@ def stage_sources(*entries: str) -> list[Path]:
             raise ModuleNotFoundError(f"{entry}: no module {module} in {PACKAGE}")
         nodes = _reached(path, function) if function else [_tree(path)]
         found |= _closure(_imports(nodes)) | set(_files(module))
+    return _with_data(found)
+
+
+def script_sources(*scripts: Path) -> list[Path]:
+    """Scripts outside the package, and the files of it whose edit can change what they do."""
+    found = _closure(_imports(_tree(script) for script in scripts))
+    return [*scripts, *_with_data(found)]
+
+
+def _with_data(found: set[Path]) -> list[Path]:
     return sorted(found | {data for path in found for data in _data_of(path)})
 
 

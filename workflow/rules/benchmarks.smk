@@ -13,10 +13,12 @@ rule benchmarks:
 rule growth:
     input:
         scripts="tests/benchmarks/growth.py",
+    params:
+        longest=30,  # CPU seconds of a single run
     message:
-        "Measure how costs grow with N, into results/costs.yaml."
+        "Measure how time and memory grow with N, into results/growth.csv, .png, .pdf, costs.yaml."
     shell:
-        "python {input.scripts} results/costs.yaml"
+        "python {input.scripts} results --longest {params.longest}"
 
 
 rule effects:

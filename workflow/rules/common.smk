@@ -14,7 +14,8 @@ from grainmodes.parameters.grid import (
     checkpoint_at_or_below,
     format_value,
 )
-from grainmodes.provenance import stage_sources
+from grainmodes.provenance import script_sources, stage_sources
+from workflow.accuracy import NAMES
 
 # Snakemake would merge a scene of the command line into the default one, key by key.
 if not workflow.config_settings.configfiles:
@@ -48,9 +49,18 @@ wildcard_constraints:
 
 def sources(*entries):
     """Files whose edit changes what a stage computes, written as a user would."""
+    return as_written(stage_sources(*entries))
+
+
+def as_written(paths):
+    """Paths as a user would write them."""
     here = Path.cwd()
-    paths = stage_sources(*entries)
     return [str(p.relative_to(here) if p.is_relative_to(here) else p) for p in paths]
+
+
+def sources_of_accuracy(*modules):
+    """Files whose edit changes what modules of `workflow/accuracy` do."""
+    return as_written(script_sources(*(Path(f"workflow/accuracy/{name}.py") for name in modules)))
 
 
 def sources_of_figure(wildcards):

@@ -1,0 +1,47 @@
+# Work-precision diagrams: what each numerical choice costs in CPU time, and the error it leaves.
+
+DIAGRAM = "results/accuracy/{size}/{name}"
+SHARED = ("diagram", "kernel_polynomial", "loops", "packings", "sharpened", "table")
+
+
+wildcard_constraints:
+    name="|".join(NAMES),
+    size="small|large",
+
+
+rule accuracy:
+    input:
+        expand(f"{DIAGRAM}.{{form}}", size="small", name=NAMES, form=["png", "pdf"]),
+
+
+rule accuracy_large:
+    input:
+        expand(f"{DIAGRAM}.{{form}}", size="large", name=NAMES, form=["png", "pdf"]),
+
+
+rule measure_accuracy:
+    input:
+        script="workflow/accuracy/measure.py",
+        code=lambda wildcards: sources_of_accuracy(*SHARED, wildcards.name),
+    output:
+        f"{DIAGRAM}.csv",
+    message:
+        "Measure what {wildcards.name} costs and buys, {wildcards.size}."
+    shell:
+        "python {input.script} {wildcards.name} --size {wildcards.size} -o {output}"
+
+
+rule draw_accuracy:
+    input:
+        script="workflow/accuracy/draw.py",
+        table=f"{DIAGRAM}.csv",
+        code=sources_of_accuracy("diagram", "table"),
+        style=sources("grainmodes.figures"),
+    output:
+        [f"{DIAGRAM}.{form}" for form in ("png", "pdf")],
+    params:
+        stem=DIAGRAM,
+    message:
+        "Draw {wildcards.name}, {wildcards.size}."
+    shell:
+        "python {input.script} {input.table} -o {params.stem}"
