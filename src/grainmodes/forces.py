@@ -13,14 +13,8 @@ import numpy as np
 from grainmodes.kernels.assembly import on_grains
 from grainmodes.kernels.contacts import contact_forces, normal_forces
 from grainmodes.kernels.energies import contact_energies
-from grainmodes.kernels.laws import (
-    AT_THRESHOLD,
-    Elastic,
-    ElasticForce,
-    Frictionless,
-    Interaction,
-    SharpCoulombForce,
-)
+from grainmodes.kernels.laws import AT_THRESHOLD, Frictionless, Interaction
+from grainmodes.kernels.springs import thresholds
 from grainmodes.packing import Contacts, Packing
 
 SIGNS = np.array([-1.0, -1.0, 1.0])
@@ -51,18 +45,8 @@ def sliding(contacts: Contacts, interaction: Interaction) -> np.ndarray:
 
     None without friction, or with springs that never slip.
     """
-    tangential = interaction.tangential
-    if isinstance(tangential, Frictionless | Elastic | ElasticForce):
-        return np.zeros(len(contacts.i), bool)
-    if isinstance(tangential, SharpCoulombForce):
-        normal = np.linalg.norm(
-            normal_forces(interaction, contacts.normal, contacts.overlap), axis=1
-        )
-        threshold = tangential.friction_coefficient * normal
-        return np.abs(contacts.displacement) >= AT_THRESHOLD * threshold
-    softness = interaction.normal.stiffness / tangential.stiffness
-    threshold = tangential.friction_coefficient * softness * contacts.overlap
-    return np.abs(contacts.displacement) >= AT_THRESHOLD * threshold
+    slides_at = thresholds(interaction, contacts.overlap)
+    return np.abs(contacts.displacement) >= AT_THRESHOLD * slides_at
 
 
 def net_force(packing: Packing, contacts: Contacts, interaction: Interaction) -> np.ndarray:

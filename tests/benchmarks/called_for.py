@@ -169,7 +169,7 @@ def _responses() -> list[Row]:
         for stage, function, sizes in (
             ("net forces", forces, LARGE),
             ("J", assembly, LARGE),
-            ("g", moduli, SMALL),
+            ("g", moduli, LARGE),
         )
         for name, state, law in STATES
     ]
@@ -181,13 +181,12 @@ def _responses() -> list[Row]:
 
 def _spectra() -> list[Row]:
     found = [
-        Row(stage, name, partial(bands, averages, law), SMALL)
-        for stage, averages in (("counts", False), ("bands", True))
+        Row(stage, name, partial(bands, averages, law), sizes)
+        for stage, averages, sizes in (("counts", False, LARGE), ("bands", True, SMALL))
         for name, _, law in STATES[:2]
     ]
     return found + [
-        # A general eigensolve with vectors takes a minute among 1024 grains.
-        Row(stage, name, partial(eigen, modes, state, law), (256,) if state is loaded else SMALL)
+        Row(stage, name, partial(eigen, modes, state, law), SMALL)
         for stage, modes in (("eigenvalues", False), ("modes", True))
         for name, state, law in STATES
     ]

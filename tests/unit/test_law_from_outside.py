@@ -151,7 +151,7 @@ def test_its_rigidity_is_that_of_a_step_strain(name, strain):
 
 
 def test_a_line_in_the_table_names_it(monkeypatch):
-    monkeypatch.setitem(laws.COULOMB, "logistic", Logistic)
+    monkeypatch.setitem(laws.TANGENTIAL, "logistic", Logistic)
     rule = laws.interaction(ContactLaw("hertz", "logistic", 0.3, 0.4))
     assert rule == OUTSIDE["logistic"][0] and type(rule.tangential) is Logistic
 

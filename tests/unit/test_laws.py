@@ -6,6 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import naive
+from grainmodes.configuration.schema import schema
+from grainmodes.kernels import laws
 from grainmodes.kernels.compiler import kernel
 from grainmodes.kernels.contacts import contact_forces, normal_slope
 from grainmodes.kernels.laws import (
@@ -17,11 +19,17 @@ from grainmodes.kernels.laws import (
     SharpCoulomb,
     SharpCoulombForce,
     SmoothedCoulomb,
+    admissible,
     interaction,
     tangential_response,
 )
-from grainmodes.kernels.springs import admissible
-from grainmodes.parameters.law import TANGENTIAL_LAWS, ContactLaw
+from grainmodes.parameters.law import (
+    COULOMB_LAWS,
+    ELASTIC_LAWS,
+    NORMAL_LAWS,
+    TANGENTIAL_LAWS,
+    ContactLaw,
+)
 from specimens import FRICTIONLESS, LAWS, few, law_name
 
 RIGHT = np.array([[1.0, 0.0]])
@@ -150,3 +158,15 @@ def test_no_stiffness_is_no_friction(tangential):
 def test_a_law_that_is_none_is_refused_by_name(law, named):
     with pytest.raises(ValueError, match=named):
         interaction(law)
+
+
+def test_the_names_of_scenes_are_those_of_the_types():
+    def coulomb(name):
+        return "friction_coefficient" in laws.TANGENTIAL[name]._fields
+
+    assert set(laws.NORMAL) == set(NORMAL_LAWS)
+    assert {name for name in laws.TANGENTIAL if coulomb(name)} == set(COULOMB_LAWS)
+    assert {name for name in laws.TANGENTIAL if not coulomb(name)} == set(ELASTIC_LAWS)
+    keys = schema()["properties"]["contact_law"]["properties"]
+    assert keys["normal"]["enum"] == list(NORMAL_LAWS)
+    assert keys["tangential"]["enum"] == list(TANGENTIAL_LAWS)

@@ -61,7 +61,7 @@ def test_another_fraction_starts_from_the_checkpoints(study):
         ("protocols/step_strain.py", {"step_strain": 4} | AFTER_POINTS),
         ("spectrum/dense.py", {"spectrum": 4} | AFTER_POINTS),
         (
-            "kernels/laws.py",
+            "kernels/laws/elastic.py",
             {"compress": 6, "pack": 2, "rigidity": 4, "step_strain": 4, "spectrum": 4}
             | AFTER_POINTS,
         ),

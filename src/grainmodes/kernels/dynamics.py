@@ -26,10 +26,9 @@ import numpy as np
 
 from grainmodes.kernels.compiler import kernel
 from grainmodes.kernels.damping import drag_rate, pair_viscosity
-from grainmodes.kernels.laws import normal_response, tangential_response
+from grainmodes.kernels.laws import admissible, advanced, normal_response, tangential_response
 from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours, separation
 from grainmodes.kernels.pair_blocks import BLOCK, pair_scratch
-from grainmodes.kernels.springs import admissible, advanced
 
 
 class Grains(NamedTuple):

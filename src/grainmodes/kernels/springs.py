@@ -1,4 +1,4 @@
-"""What a tangential spring remembers: how it advances with ds, and how much the law lets it keep.
+"""What tangential springs remember: how it advances with ds, and how much the law lets it keep.
 
 | remembered           | advances by                                | keeps                        |
 | -------------------- | ------------------------------------------ | ---------------------------- |
@@ -6,7 +6,8 @@
 | h  force             | k_T w(ξ) ds, ξ at the middle of the step   | all; sharp Coulomb: μ f_N    |
 
 A displacement feels every later change of the overlap, f_T = −k_T w(ξ) s; a force does not, and so
-∂f_T/∂ξ = 0. LAMMPS calls the two `mindlin` and `mindlin/force`.
+∂f_T/∂ξ = 0. LAMMPS calls the two `mindlin` and `mindlin/force`. Which is which, each law says
+(`laws`).
 """
 
 from __future__ import annotations
@@ -15,61 +16,17 @@ import math
 
 import numpy as np
 
-from grainmodes.kernels.compiler import implements, kernel, otherwise
-from grainmodes.kernels.laws import (
-    ElasticForce,
-    SharpCoulomb,
-    SharpCoulombForce,
-    normal_response,
-    tangential_scale,
-)
+from grainmodes.kernels.compiler import kernel
+from grainmodes.kernels.laws import admissible, advanced, threshold
 
 
-def advanced(tangential, normal, overlap, displacement, slide):
-    """What a spring remembers after it has slid by ds, with ξ at the middle of the step."""
-    raise NotImplementedError("called from compiled code only")
-
-
-def admissible(tangential, normal, overlap, displacement):
-    """What the law lets the spring keep: sharp Coulomb lets the rest slip."""
-    raise NotImplementedError("called from compiled code only")
-
-
-@otherwise(advanced)
-def _displacement_advances(tangential, normal, overlap, displacement, slide):
-    return displacement + slide
-
-
-@implements(advanced, ElasticForce)
-def _elastic_force_advances(tangential, normal, overlap, displacement, slide):
-    scale, _ = tangential_scale(normal, overlap)
-    return displacement + tangential.stiffness * scale * slide
-
-
-@implements(advanced, SharpCoulombForce)
-def _sharp_force_advances(tangential, normal, overlap, displacement, slide):
-    scale, _ = tangential_scale(normal, overlap)
-    return displacement + tangential.stiffness * scale * slide
-
-
-@otherwise(admissible)
-def _keeps_all(tangential, normal, overlap, displacement):
-    return displacement
-
-
-@implements(admissible, SharpCoulomb)
-def _sharp_keeps(tangential, normal, overlap, displacement):
-    force, _ = normal_response(normal, overlap)
-    scale, _ = tangential_scale(normal, overlap)
-    limit = tangential.friction_coefficient * force / (tangential.stiffness * scale)
-    return min(max(displacement, -limit), limit)
-
-
-@implements(admissible, SharpCoulombForce)
-def _sharp_force_keeps(tangential, normal, overlap, displacement):
-    force, _ = normal_response(normal, overlap)
-    limit = tangential.friction_coefficient * force
-    return min(max(displacement, -limit), limit)
+@kernel
+def thresholds(interaction, overlap):
+    """What every spring remembers where its contact begins to slide, (C,); ∞ if it never does."""
+    found = np.empty(overlap.shape[0])
+    for c in range(overlap.shape[0]):
+        found[c] = threshold(interaction.tangential, interaction.normal, overlap[c])
+    return found
 
 
 @kernel
