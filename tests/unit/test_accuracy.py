@@ -7,7 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from accuracy import NAMES, draw, force_tolerance, growth, strain_step, table, time_step
+from accuracy import (
+    NAMES,
+    backtracking,
+    draw,
+    force_tolerance,
+    growth,
+    strain_step,
+    table,
+    time_step,
+)
 from accuracy.diagram import FAILED, Row, Sample, Size, apart, knee, row, timed
 
 SCRIPTS = Path(__file__).parents[2] / "workflow" / "accuracy"
@@ -199,3 +208,19 @@ def test_the_growth_rate_of_a_release_has_order_two():
 def test_a_time_step_beyond_the_limit_has_failed(stepped):
     beyond = [row for row in stepped if row.setting == 4.0]
     assert {(row.samples, row.failed) for row in beyond} == {(0, 1)}
+
+
+def test_brackets(monkeypatch):
+    monkeypatch.setattr(backtracking, "WIDTHS", (1e-4, 1e-7))
+    monkeypatch.setattr(backtracking, "COARSE", (1e-5,))
+    rows = list(backtracking.measure(Size((32,), 2)))
+    error = {(row.curve, row.setting): row.error for row in rows}
+    for name in ("friction", "no friction"):
+        assert error[f"{name}, steps taken back", 1e-7] <= 0.5e-7
+        assert error[f"{name}, steps taken back", 1e-4] <= 1e-4
+    assert error["no friction, every step as short", 1e-5] <= 1e-5
+
+
+def test_a_shear_without_an_event_has_no_critical_strain():
+    packing, rule = backtracking.harmonic(32, 0), backtracking.FRICTION
+    assert math.isnan(backtracking.critical_strain(packing, rule, backtracking.Shear(2e-4)))

@@ -6,5 +6,5 @@
 A diagram is a module of this folder with a `DIAGRAM`; `diagram.py` says what that is.
 """
 
-NAMES = ("force_tolerance", "strain_step", "time_step")
+NAMES = ("strain_step", "force_tolerance", "time_step", "backtracking")
 """The diagrams in the order of docs/accuracy.md."""
