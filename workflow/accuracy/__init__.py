@@ -6,5 +6,14 @@
 A diagram is a module of this folder with a `DIAGRAM`; `diagram.py` says what that is.
 """
 
-NAMES = ("strain_step", "force_tolerance", "time_step", "backtracking")
+NAMES = (
+    "force_tolerance",
+    "strain_step",
+    "time_step",
+    "backtracking",
+    "compression_step",
+    "spectrum",
+    "seeds",
+    "precision",
+)
 """The diagrams in the order of docs/accuracy.md."""

@@ -1,6 +1,7 @@
 # Work-precision diagrams: what each numerical choice costs in CPU time, and the error it leaves.
 
 DIAGRAM = "results/accuracy/{size}/{name}"
+SHARED = ("diagram", "kernel_polynomial", "loops", "packings", "sharpened", "table")
 
 
 wildcard_constraints:
@@ -21,9 +22,7 @@ rule accuracy_large:
 rule measure_accuracy:
     input:
         script="workflow/accuracy/measure.py",
-        code=lambda wildcards: sources_of_accuracy(
-            *("diagram", "packings", "table", wildcards.name)
-        ),
+        code=lambda wildcards: sources_of_accuracy(*SHARED, wildcards.name),
     output:
         f"{DIAGRAM}.csv",
     message:

@@ -1,0 +1,65 @@
+"""The kernel polynomial method: integrated densities from random vectors. Not taken; measured only.
+
+With λ = c + a x, |x| < 1, Chebyshev polynomials T_m, and random vectors z of signs ±1,
+
+    μ_m = <z · P T_m(X) z> ≈ tr [P T_m(X)],     X = (J − c) / a
+    N(λ) = (1/π) [μ_0 (π − θ) − 2 Σ_m g_m μ_m sin(mθ) / m],     x = cos θ
+
+is the number of modes below λ, each weighted by its part in P: P = 1, or the rotations alone. The
+Jackson factors g_m keep the density positive, and spread a mode over π a / m (Weisse et al. 2006).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from grainmodes.spectrum.problem import Problem
+
+VECTORS = 32
+"""Random vectors."""
+
+MARGIN = 0.01
+"""Room beside the spectrum, in its width."""
+
+
+class Moments(NamedTuple):
+    """μ_m of all modes and of their rotations, (K,) each, and the interval of λ they belong to."""
+
+    all: np.ndarray
+    rotational: np.ndarray
+    low: float
+    high: float
+
+
+def moments(problem: Problem, count: int, seed: int = 0) -> Moments:
+    """The first `count` moments of a symmetric J, estimated by `VECTORS` vectors."""
+    low, high = -MARGIN * problem.bound, (1.0 + MARGIN) * problem.bound
+    centre, half = 0.5 * (high + low), 0.5 * (high - low)
+    z = np.random.default_rng(seed).choice([-1.0, 1.0], (problem.size, VECTORS))
+    rotation = np.arange(problem.size) % problem.k == 2
+    found = np.empty((2, count))
+    before, now = (problem.matrix @ z - centre * z) / half, z
+    for m in range(count):
+        weight = z * now
+        found[:, m] = weight.sum(), weight[rotation].sum()
+        ahead = 2.0 / half * (problem.matrix @ now - centre * now) - before
+        before, now = now, ahead
+    return Moments(*found / VECTORS, low, high)
+
+
+def jackson(count: int) -> np.ndarray:
+    """g_m for m = 0 … count − 1."""
+    m, q = np.arange(count), np.pi / (count + 1)
+    return ((count - m + 1) * np.cos(m * q) + np.sin(m * q) / np.tan(q)) / (count + 1)
+
+
+def below(mu: np.ndarray, of: Moments, eigenvalue: np.ndarray) -> np.ndarray:
+    """N(λ) from the moments `mu` (K,), all or rotational, at λ (E,); (E,) float."""
+    x = (2.0 * eigenvalue - of.low - of.high) / (of.high - of.low)
+    theta = np.arccos(np.clip(x, -1.0, 1.0))
+    m = np.arange(1, len(mu))
+    weight = (jackson(len(mu)) * mu)[1:] / m
+    waves = np.array([np.sin(m * angle) @ weight for angle in theta])
+    return (mu[0] * (np.pi - theta) - 2.0 * waves) / np.pi
