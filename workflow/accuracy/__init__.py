@@ -7,8 +7,8 @@ A diagram is a module of this folder with a `DIAGRAM`; `diagram.py` says what th
 """
 
 NAMES = (
-    "strain_step",
     "force_tolerance",
+    "strain_step",
     "time_step",
     "compression_step",
     "spectrum",
