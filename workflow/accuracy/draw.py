@@ -38,7 +38,7 @@ RINGS = {"knee": ("o", 9.0), "default": ("s", 10.5)}
 
 RING = {"mfc": "none", "mec": "k", "mew": 0.8, "ls": ""}
 
-SHORT = 30.0
+SHORT = 100.0
 """Ratio of limits below which powers of ten alone are too few labels."""
 
 WIDE = 10.0
