@@ -79,7 +79,7 @@ def test_a_short_call_is_timed_until_the_clock_sees_it():
 
 def measured(rows: list[Row]) -> table.Table:
     """A table of these rows, as measured here."""
-    return table.table_of(strain_step.DIAGRAM, rows)
+    return table.table_of(strain_step.DIAGRAM, strain_step.DIAGRAM.small, rows)
 
 
 def test_a_table_comes_back_to_the_last_digit(tmp_path):
@@ -90,6 +90,7 @@ def test_a_table_comes_back_to_the_last_digit(tmp_path):
     back = table.read(path)
     assert str(list(table.curves(back).values())) == str([rows[:4], rows[4:]])
     assert back.words["title"] == strain_step.DIAGRAM.title
+    assert back.words["grains"] == "64"
     assert f"Python {sys.version.split()[0]}" in back.words["machine"]
     assert back.words["code"].startswith("0.1.0+")
 
@@ -97,7 +98,7 @@ def test_a_table_comes_back_to_the_last_digit(tmp_path):
 def test_a_file_that_is_no_table_is_refused(tmp_path):
     path = tmp_path / "table.csv"
     path.write_text("a,b\n1,2\n")
-    with pytest.raises(ValueError, match=r"table.csv: no title, setting, .* on top"):
+    with pytest.raises(ValueError, match=r"table.csv: no title, grains, .* on top"):
         table.read(path)
     head = "".join(f"# {name}: x\n" for name in table.WORDS)
     path.write_text(f"{head}a,b\n1,2\n")

@@ -114,7 +114,7 @@ def critical_strain(packing: Packing, rule: Interaction, shear: Shear) -> float:
 
 
 DIAGRAM = Diagram(
-    title="Bracket of an event",
+    title="Bracket of an event, φ = 0.90, harmonic, k_T = k_N or none",
     setting=r"$\Delta\gamma_{\rm Th}$",
     unit="event",
     error=r"error of $\gamma_c$",

@@ -166,7 +166,8 @@ def _scale_memory(axes: Axes, table: Table) -> None:
 
 def _caption(table: Table) -> list[str]:
     words, counts = table.words, table.rows["samples"] + table.rows["failed"]
-    text = f"{words['title']}. {appearance.samples(counts)}. Reference: {words['reference']}."
+    of = f"N = {words['grains']}, {appearance.samples(counts)}"
+    text = f"{words['title']}; {of}. Reference: {words['reference']}."
     return [*textwrap.wrap(text, CAPTION), f"{words['machine']}; grainmodes {words['code']}"]
 
 
