@@ -20,6 +20,20 @@ def to_fraction(value: np.ndarray) -> np.ndarray:
     ).view(np.int64)
 
 
+def to_step(value: np.ndarray) -> np.ndarray:
+    """Real steps (2, N) in units of the box as integers in units of 2⁻⁶⁴, whole boxes left out.
+
+    Raises:
+        PackingError: a step is no number.
+    """
+    bad = np.flatnonzero(~np.isfinite(value).all(axis=0))
+    if len(bad):
+        raise PackingError(f"the step of grain {bad[0]} is {value[:, bad[0]]} boxes: no number")
+    step = np.rint((value - np.rint(value)) * 2.0**64)
+    # Half a box, 2⁶³, is one more than an integer holds; it is also half a box back.
+    return np.where(step < 2.0**63, step, -(2.0**63)).astype(np.int64)
+
+
 def check_grains(position, diameter, mass) -> None:
     """Refuse positions (N, 2), diameters and masses (N,) that cannot be grains."""
     n = len(diameter)

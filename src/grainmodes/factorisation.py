@@ -11,6 +11,8 @@ inside its supernodes.
 
 from __future__ import annotations
 
+import os
+from functools import cache
 from importlib.util import find_spec
 from typing import Protocol
 from weakref import finalize
@@ -174,6 +176,7 @@ class Pardiso:
         from pypardiso import PyPardisoSolver
         from pypardiso.pardiso_wrapper import PyPardisoError
 
+        _locate_mkl()
         self._error = PyPardisoError
         self._solver = PyPardisoSolver(mtype=-2)
         for number, value in PARDISO_CHOICES.items():
@@ -212,6 +215,14 @@ class Pardiso:
             return self._solver._call_pardiso(self._upper, columns)
         except self._error as error:
             raise PARDISO_ERRORS.get(error.value, RuntimeError)(str(error)) from error
+
+
+@cache
+def _locate_mkl() -> None:
+    """Say where MKL lies: each solver would else walk through the whole environment to find it."""
+    from pypardiso import PyPardisoSolver
+
+    os.environ["PYPARDISO_MKL_RT"] = PyPardisoSolver().libmkl._name
 
 
 def _release(solver, upper: sparse.csr_matrix, nothing: np.ndarray) -> None:

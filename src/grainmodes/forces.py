@@ -14,6 +14,7 @@ from grainmodes.kernels.assembly import on_grains
 from grainmodes.kernels.contacts import contact_forces, normal_forces
 from grainmodes.kernels.energies import contact_energies
 from grainmodes.kernels.laws import (
+    AT_THRESHOLD,
     Elastic,
     ElasticForce,
     Frictionless,
@@ -43,10 +44,6 @@ def tangential_forces(interaction: Interaction, overlap: np.ndarray, s: np.ndarr
     """f_T of contacts with these overlaps and tangential displacements, (C,)."""
     along_x = np.tile([1.0, 0.0], (len(s), 1))
     return contact_forces(interaction, along_x, overlap, s)[:, 2]
-
-
-AT_THRESHOLD = 1.0 - 1e-12
-"""Part of s* from which a contact slides; the sharp law holds its springs at s* to rounding."""
 
 
 def sliding(contacts: Contacts, interaction: Interaction) -> np.ndarray:

@@ -21,7 +21,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from grainmodes.box import PackingError, check_box, check_grains, check_springs, to_fraction
+from grainmodes.box import (
+    PackingError,
+    check_box,
+    check_grains,
+    check_springs,
+    to_fraction,
+    to_step,
+)
 from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours, matched, touching
 
 
@@ -154,9 +161,17 @@ class Packing:
         return np.stack([sheared, y], axis=1) * self.box_length
 
     def at(self, phi: float) -> Packing:
-        """The same fractions in the box of area fraction φ: affine compression, A (A1), (A2)."""
+        """The same fractions in the box of area fraction φ: affine compression, A (A1), (A2).
+
+        Raises:
+            PackingError: φ is not positive, or its box too small.
+        """
+        if not phi > 0.0:
+            raise PackingError(f"phi = {phi}: needed is a positive area fraction")
         area = np.sum(np.pi * self.diameter**2 / 4.0)
-        return replace(self, box_length=float(np.sqrt(area / phi)))
+        box_length = float(np.sqrt(area / phi))
+        check_box(self.diameter, box_length, self.strain)
+        return replace(self, box_length=box_length)
 
     def sheared(self, strain: float) -> Packing:
         """The same fractions in the box at strain γ: affine shear.
@@ -168,11 +183,14 @@ class Packing:
         return replace(self, strain=float(strain))
 
     def displaced(self, displacement: np.ndarray) -> Packing:
-        """Grains moved by (N, 2) in d; the rotation is left alone."""
+        """Grains moved by (N, 2) in d, any number of boxes far; the rotation is left alone.
+
+        Raises:
+            PackingError: a displacement is no number.
+        """
         s_y = displacement[:, 1] / self.box_length
         s_x = displacement[:, 0] / self.box_length - self.strain * s_y
-        step = np.rint(np.stack([s_x, s_y]) / RESOLUTION).astype(np.int64)
-        return replace(self, fraction=self.fraction + step)
+        return replace(self, fraction=self.fraction + to_step(np.stack([s_x, s_y])))
 
     def without(self, mask: np.ndarray) -> Packing:
         """The packing without the grains of a (N,) mask, renumbered, its springs with it."""

@@ -1,67 +1,67 @@
-"""How costs grow with N: `snakemake -j1 growth` measures the table behind `grainmodes cost`.
+"""Growth of every stage with N: `snakemake -j1 growth` → results/growth.{csv,png,pdf}, costs.yaml.
 
-Each work is timed at N = 256, 512, 1024, … until a run would take longer than `LONGEST`, each time
-in a process of its own; the last sizes give c and p of c (N / 1024)^p by a straight line through
-the logarithms, with standard errors. The table goes to a file that `grainmodes cost --costs` reads;
-a work that cannot be measured here keeps its row.
+    growth.py FOLDER --longest SECONDS
+
+Each work (`works.py`) is timed at N = 64, 128, … 65536 until a run would take longer than
+`SECONDS`, each time in a process of its own. Rows go to growth.csv as they come, and are there to
+stay: a run that was stopped goes on, a longer limit adds sizes, and without the file all is
+measured anew. Exponents (`growth_laws.py`) and the figure (`growth_figure.py`) follow from it.
+
+| column    | meaning                                                        |
+| --------- | -------------------------------------------------------------- |
+| seconds   | CPU time of one thread                                         |
+| units     | what it was for: modes, edges, steps, states, else one sample  |
+| megabytes | peak memory of the process; in the row `bare`, of a job on few grains |
 """
 
 from __future__ import annotations
 
+import argparse
+import os
 import platform
 import sys
-import tempfile
-from collections.abc import Iterator
 from importlib.util import find_spec
-from itertools import accumulate
 from multiprocessing import get_context
 from pathlib import Path
-from typing import NamedTuple
 
-import numpy as np
-import yaml
+import pandas as pd
 
-from grainmodes.cost.table import COSTS, REFERENCE
 from grainmodes.environment import prepare
-from grainmodes.parameters.grid import checkpoints_up_to
 
 # Inherited by the processes that measure.
 prepare()
 sys.path.insert(0, str(Path(__file__).parent))
 
-SIZES = (256, 512, 1024, 2048, 4096, 8192, 16384)
+SIZES = tuple(64 * 2**k for k in range(11))
 
-LONGEST = 100.0
-"""CPU seconds that a single run may be expected to take."""
+WORKS = (
+    *("rigidity", "count_pardiso", "count_superlu", "step_strain", "pack", "trajectory"),
+    *("dense_values", "dense_modes", "window_pardiso", "window_superlu", "shear"),
+    *("pairs", "fields", "variants"),
+)
+"""Close-ups, releases and probes are left out: what they cost hangs on where a sample has its
+events, on how slowly its unstable state is left, on a compression with friction, more than on N."""
 
-LAST = 4
-"""So many of the largest sizes are fitted: small ones are governed by overheads."""
-
-KEPT = {"close_up", "pairs", "release"}
-"""Works whose cost hangs on where a sample has its events or its pairs, or on how slowly its
-unstable state is left, more than on N."""
-
-LEAST = 1.0
-"""MB: less cannot be told from a bare job."""
+COLUMNS = ["work", "n", "seconds", "units", "megabytes"]
 
 
-class Fit(NamedTuple):
-    """c and p of c (N / 1024)^p, with the relative error of c and the error of p."""
-
-    c: float
-    p: float
-    c_error: float
-    p_error: float
+def machine() -> str:
+    """Processor, cores, Python, and the factorisation that "auto" takes."""
+    fast = "PARDISO" if find_spec("pypardiso") else "SuperLU alone"
+    return f"{_processor()}, {os.cpu_count()} cores, Python {platform.python_version()}, {fast}"
 
 
-def fitted(n: list[int], values: list[float]) -> Fit:
-    """The power law through the last sizes; errors are NaN below three of them."""
-    x, y = np.log(np.array(n[-LAST:]) / REFERENCE), np.log(values[-LAST:])
-    p, log_c = np.polyfit(x, y, 1)
-    errors = np.full(2, np.nan)
-    if len(x) > 2:
-        errors = np.sqrt(np.diag(np.polyfit(x, y, 1, cov=True)[1]))
-    return Fit(float(np.exp(log_c)), float(p), float(errors[1]), float(errors[0]))
+def _processor() -> str:
+    known = Path("/proc/cpuinfo")
+    lines = known.read_text(encoding="utf-8").splitlines() if known.is_file() else []
+    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return " ".join([*models[:1], platform.machine()])
+
+
+def read(path: Path) -> tuple[str, pd.DataFrame]:
+    """The machine and the rows of a file of this module."""
+    head = path.read_text(encoding="utf-8").partition("\n")[0]
+    return head.removeprefix("# "), pd.read_csv(path, comment="#")
 
 
 def apart(function: str, *arguments):
@@ -76,86 +76,70 @@ def _call(function: str, *arguments):
     return getattr(works, function)(*arguments)
 
 
-def series(work: str, folder: Path) -> Iterator[tuple[int, object]]:
-    """N and what was timed there, until the next N would take too long."""
-    seconds: list[float] = []
-    for n in SIZES:
-        if len(seconds) > 1 and seconds[-1] ** 2 / seconds[-2] > LONGEST:
+def measure(path: Path, longest: float) -> None:
+    """Add to the file the rows that it lacks.
+
+    Raises:
+        ValueError: the file is of another machine.
+    """
+    if not path.exists():
+        path.write_text(f"# {machine()}\n{','.join(COLUMNS)}\n", encoding="utf-8")
+    if read(path)[0] != machine():
+        raise ValueError(f"{path}: measured on another machine ({read(path)[0]}); remove it first")
+    scratch = path.with_suffix("")
+    scratch.mkdir(exist_ok=True)
+    if "bare" not in set(read(path)[1]["work"]):
+        _add(path, "bare", 16, apart("start_up"), 1.0, apart("bare", scratch))
+    for work in WORKS:
+        if not work.endswith("_pardiso") or find_spec("pypardiso"):
+            _extend(path, work, longest, scratch)
+
+
+def _extend(path: Path, work: str, longest: float, scratch: Path) -> None:
+    """Rows of a work at the sizes that are missing, up to the limit."""
+    rows = read(path)[1]
+    seconds = rows["seconds"][rows["work"] == work].tolist()
+    for n in SIZES[len(seconds) :]:
+        if expected(seconds) > longest:
             return
-        timed = apart("timed", work, n, folder)
-        seconds.append(max(timed.seconds, 1e-3))
-        yield n, timed
+        timed = apart("timed", work, n, scratch)
+        seconds.append(timed.seconds)
+        _add(path, work, n, *timed)
 
 
-def row(work: str, folder: Path, bare: float) -> tuple[dict, str]:
-    """The row of the table of a work, and what is known of it in words."""
-    sizes, timed = zip(*series(work, folder), strict=True)
-    time = fitted(sizes, [max(each.seconds, 1e-3) / each.units for each in timed])
-    memory = fitted(sizes, [max(each.megabytes - bare, LEAST) for each in timed])
-    values = {
-        "seconds": _digits(time.c),
-        "exponent": _digits(time.p),
-        "megabytes": _digits(memory.c),
-        "memory_exponent": _digits(memory.p),
-        "up_to": sizes[-1],
-    }
-    words = f"N = {sizes[-LAST:][0]} to {sizes[-1]}: c +- {100 * time.c_error:.0f} %"
-    return values, f"{words}, p +- {time.p_error:.2f}"
+def expected(seconds: list[float]) -> float:
+    """CPU seconds of the next size: the last step once more, and no decrease."""
+    if len(seconds) < 2:
+        return max(seconds, default=0.0)
+    return seconds[-1] * max(1.0, seconds[-1] / seconds[-2])
 
 
-def _digits(value: float) -> float:
-    return float(f"{value:.3g}")
+def _add(path: Path, work: str, n: int, seconds: float, units: float, megabytes: float) -> None:
+    row = f"{work},{n},{seconds:.4g},{units:g},{megabytes:.4g}"
+    print(row, flush=True)
+    with path.open("a", encoding="utf-8") as file:
+        file.write(f"{row}\n")
 
 
-def climb_shares() -> dict[float, float]:
-    """Part of a trajectory that is behind it at each checkpoint."""
-    behind = list(accumulate(apart("climb", REFERENCE)))
-    return {
-        phi: _digits(seconds / behind[-1])
-        for phi, seconds in zip(checkpoints_up_to(0.9), behind, strict=True)
-    }
+def main() -> None:
+    """Measure, then fit and draw."""
+    parser = argparse.ArgumentParser(description=__doc__.partition(":")[0])
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--longest", type=float, required=True, help="CPU seconds of one run")
+    arguments = parser.parse_args()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    path = arguments.folder / "growth.csv"
+    try:
+        measure(path, arguments.longest)
+    except ValueError as error:
+        sys.exit(f"growth.py: {error}")
 
+    import growth_figure
+    import growth_laws
 
-def line(work: str, kept: dict, folder: Path, bare: float) -> str:
-    """The line of a work in the table, measured, or the row of the table before."""
-    if work.endswith("_pardiso") and find_spec("pypardiso") is None:
-        values, words = kept, "kept: pypardiso is not installed"
-    elif work in KEPT:
-        values, words = kept, "kept: not measured"
-    else:
-        values, words = row(work, folder, bare)
-    flow = yaml.safe_dump(values, default_flow_style=True, sort_keys=False, width=999)
-    return f"  {work}: {flow.strip()}  # {words}"
-
-
-def main(output: Path) -> None:
-    """Measure every work, print its line as it comes, and write the table."""
-    table, lines = yaml.safe_load(COSTS.read_text(encoding="utf-8")), []
-    table["machine"] = f"{platform.machine()}, Python {platform.python_version()}"
-    with tempfile.TemporaryDirectory() as name:
-        bare = apart("bare", Path(name))
-        table["job"] = {"seconds": _digits(apart("start_up")), "megabytes": round(bare)}
-        for work, kept in table["laws"].items():
-            lines.append(line(work, kept, Path(name), bare))
-            print(lines[-1], flush=True)
-    table["climb"] = climb_shares()
-    output.write_text(text(table, lines), encoding="utf-8")
-
-
-def text(table: dict, lines: list[str]) -> str:
-    """The file: what the package says of its columns, then what was measured."""
-    head = COSTS.read_text(encoding="utf-8").partition("#\n")[0]
-    rest = {name: value for name, value in table.items() if name not in ("machine", "laws")}
-    return "\n".join(
-        [
-            f"{head}machine: {table['machine']}\n",
-            "laws:",
-            *lines,
-            "",
-            yaml.safe_dump(rest, default_flow_style=None, sort_keys=False, width=999),
-        ]
-    )
+    growth_laws.write(*read(path), arguments.folder / "costs.yaml")
+    growth_figure.write(*read(path), arguments.folder / "growth")
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    main()

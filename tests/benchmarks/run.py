@@ -29,6 +29,10 @@ CASES = (
     ("FIRE, per grain and step", "fire_step", 4096, 25.0, "ns"),
     ("FIRE, per grain and step", "fire_step", 16384, 25.0, "ns"),
     ("FIRE, per grain and step", "fire_step", 65536, 25.0, "ns"),
+    ("frictionless forces, in those written by hand", "forces_in_twins", 1024, 1.05, "x"),
+    ("frictionless forces, in those written by hand", "forces_in_twins", 4096, 1.05, "x"),
+    ("frictionless forces, in those written by hand", "forces_in_twins", 16384, 1.05, "x"),
+    ("frictionless forces, in those written by hand", "forces_in_twins", 65536, 1.05, "x"),
     ("frictional dynamics with history, per grain and step", "frictional_step", 4096, 50.0, "ns"),
     ("Newtonian dynamics of paper C, per grain and step", "newtonian_step", 4096, 60.0, "ns"),
     ("trajectory with eight phi, each to 1e-14", "trajectory", 4096, 300.0, "s"),
@@ -54,8 +58,9 @@ CASES = (
 def measured(name: str, n: int) -> tuple[float, float]:
     """(time, peak memory in MB) of a case, in this process."""
     import cases
+    import twin
 
-    value = getattr(cases, name)(n)
+    value = {**vars(cases), **vars(twin)}[name](n)
     return value, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
 
 

@@ -12,6 +12,8 @@ from grainmodes.hessian import effective_hessian
 from grainmodes.kernels.dynamics import integrate
 from grainmodes.kernels.fire import fire
 from grainmodes.kernels.laws import Hertz, interaction
+from grainmodes.kernels.neighbours import find_neighbours
+from grainmodes.kernels.repulsion import add_forces
 from grainmodes.packing import Contacts, History, Packing, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
@@ -30,6 +32,9 @@ FRICTION = interaction(ContactLaw(kt=1e-2))
 EDGES = np.array([1e-6, 0.1, 0.5, 1.0, 3.0])
 PLACES = {"x", "y", "vx", "vy", "fx", "fy", "origin_x", "origin_y", "diameter", "inverse_mass"}
 """Arrays of FIRE over the grains."""
+
+PAIRS = {"left", "right", "reach"}
+"""Arrays of its inner loop over the pairs."""
 
 
 def refuse(monkeypatch, *places) -> None:
@@ -50,9 +55,17 @@ def arrays_of(kernel) -> set[str]:
 
 def test_fire_holds_no_rotation_torque_or_history():
     advanced(placed(16, 0, Hertz(1.0), Compression()), 0.8, Hertz(1.0), Compression())
-    assert arrays_of(fire) == PLACES | {"scratch"}
+    assert arrays_of(fire) == PLACES
     laws = {str(types[6]) for types in fire.overloads}
     assert laws <= {"Hertz(float64 x 1)", "Harmonic(float64 x 1)"}
+
+
+def test_frictionless_forces_read_positions_and_pairs_and_write_forces():
+    packing, force = quenched(16, 0.9), np.zeros((2, 16))
+    state = *packing.fraction, packing.diameter, packing.box_length, 0.0
+    pairs = find_neighbours(*state, 0.2)
+    add_forces(*packing.fraction, packing.box_length, None, pairs, Hertz(1.0), *force)
+    assert arrays_of(add_forces) == {"x", "y", "force_x", "force_y"} | PAIRS
 
 
 def test_the_look_into_compiled_code_sees_a_history():

@@ -161,6 +161,18 @@ def test_what_pardiso_runs_into_fails_a_sample_and_not_its_block(code, kind, mon
             factors.refill(np.ones(3))
 
 
+@pytest.mark.skipif("pardiso" not in BACKENDS, reason="needs pypardiso")
+def test_mkl_is_looked_for_once(monkeypatch):
+    from pypardiso import pardiso_wrapper
+
+    monkeypatch.delenv("PYPARDISO_MKL_RT", raising=False)
+    factorisation._locate_mkl.cache_clear()
+    pattern = sparse.csc_array(np.eye(3))
+    factorisation.factorisation(pattern, "pardiso")
+    monkeypatch.delattr(pardiso_wrapper, "find_library")
+    factorisation.factorisation(pattern, "pardiso")
+
+
 def test_pardiso_must_be_installed_to_be_asked_for(monkeypatch):
     monkeypatch.setattr(factorisation, "find_spec", lambda name: None)
     assert factorisation.chosen("auto", 10**6) == "superlu"

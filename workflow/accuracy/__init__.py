@@ -10,6 +10,7 @@ NAMES = (
     "force_tolerance",
     "strain_step",
     "time_step",
+    "backtracking",
     "compression_step",
     "spectrum",
     "seeds",

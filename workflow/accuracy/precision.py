@@ -147,7 +147,7 @@ def jammed(packing: Packing) -> bool:
 
 
 DIAGRAM = Diagram(
-    title="Single and double precision, N = 256, φ = 0.90, near jamming 0.85",
+    title="Single and double precision, φ = 0.90, near jamming 0.85",
     setting="significant bits of a force",
     unit="$10^9$ grain steps",
     error=r"error: $F$, $\max|F|$ in $\bar f$; $g$ relative",

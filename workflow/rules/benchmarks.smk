@@ -13,7 +13,18 @@ rule benchmarks:
 rule growth:
     input:
         scripts="tests/benchmarks/growth.py",
+    params:
+        longest=30,  # CPU seconds of a single run
     message:
-        "Measure how costs grow with N, into results/costs.yaml."
+        "Measure how time and memory grow with N, into results/growth.csv, .png, .pdf, costs.yaml."
     shell:
-        "python {input.scripts} results/costs.yaml"
+        "python {input.scripts} results --longest {params.longest}"
+
+
+rule effects:
+    input:
+        scripts="tests/benchmarks/effects.py",
+    message:
+        "Measure what each effect costs at each stage, into results/effects.csv."
+    shell:
+        "python {input.scripts} results/effects.csv"

@@ -1,4 +1,4 @@
-"""Commands about a scene that compute nothing."""
+"""Commands about a scene, or about a pilot of one, that compute nothing."""
 
 from __future__ import annotations
 
@@ -18,3 +18,21 @@ def cost(arguments: Namespace) -> None:
         raise ValueError(f"--cores = {arguments.cores}: allowed is a whole number from 1")
     scene = read_scene(arguments.config)
     print(report(scene, read_table(arguments.costs or COSTS), arguments.cores))
+
+
+def plan(arguments: Namespace) -> None:
+    """A pilot ensemble → the seeds and the CPU hours that an accuracy needs.
+
+    Raises:
+        ValueError: the table has mistakes, or nothing can be planned from this pilot.
+    """
+    from grainmodes.cost import COSTS, read_table
+    from grainmodes.ensemble import open_ensemble
+    from grainmodes.planning import report
+
+    table = read_table(arguments.costs or COSTS)
+    with open_ensemble(arguments.ensemble) as opened:
+        try:
+            print(report(opened, arguments.target_error, table))
+        except ValueError as error:
+            raise ValueError(f"{arguments.ensemble}: {error}") from error

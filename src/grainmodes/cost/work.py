@@ -23,7 +23,7 @@ from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import (
     BINNED,
-    DENSE_BINS_UP_TO,
+    DENSE_COUNTS_UP_TO,
     DENSE_MODES_UP_TO,
     SpectrumChoices,
 )
@@ -92,7 +92,7 @@ def _spectrum(kind: str, n: int, kt: float, choices: SpectrumChoices, table: Tab
 
 def _dense(kind: str, modes: int, method: str, table: Table) -> bool:
     named = method == "windows" or (method == "counting" and kind in BINNED)
-    limit = DENSE_BINS_UP_TO if kind in BINNED else DENSE_MODES_UP_TO
+    limit = DENSE_COUNTS_UP_TO if kind == "counts" else DENSE_MODES_UP_TO
     return method == "dense" or (not named and modes <= limit)
 
 

@@ -53,13 +53,17 @@ def variable(ensemble: xr.Dataset, name: str) -> xr.DataArray:
     return ensemble[name].transpose("n", "phi", "kt", "seed", ...)
 
 
+def configuration(ensemble: xr.Dataset) -> dict:
+    """The part of its scene that an ensemble depends on."""
+    return json.loads(ensemble.attrs["config"])
+
+
 def normal_law(ensemble: xr.Dataset) -> str:
     """The normal contact law, on which units depend; "hertz" where the configuration is silent."""
-    config = json.loads(ensemble.attrs["config"])
-    return config.get("contact_law", {}).get("normal", ContactLaw.normal)
+    return configuration(ensemble).get("contact_law", {}).get("normal", ContactLaw.normal)
 
 
 def fineness(ensemble: xr.Dataset) -> float:
     """Factor on the numbers of linear bins that the study chose for its spectra."""
-    protocol = json.loads(ensemble.attrs["config"]).get("protocol", {})
+    protocol = configuration(ensemble).get("protocol", {})
     return protocol.get("spectrum", {}).get("fineness", SpectrumChoices().fineness)

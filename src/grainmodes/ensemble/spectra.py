@@ -41,6 +41,20 @@ class Spectrum(NamedTuple):
         return binning.binned(self.frequency, modes, *self[1:], edges)
 
 
+def shared_edges(spectra: list[Spectrum | Binned], kappa: float, fineness: float) -> np.ndarray:
+    """A's bins over the range of all spectra, or the bins in which one of them was counted.
+
+    One edge only where there is no vibration.
+    """
+    for of in spectra:
+        if isinstance(of, Binned):
+            return of.edges
+    frequency = np.concatenate([of.frequency.ravel() for of in spectra])
+    if not np.isfinite(frequency).any():
+        return np.zeros(1)
+    return binning.bin_edges(kappa, np.nanmin(frequency), np.nanmax(frequency), fineness)
+
+
 def points_with(ensemble: xr.Dataset, *names: str) -> xr.DataArray:
     """Points at which a sample has a number under one of the names: bool (n, phi, kt).
 

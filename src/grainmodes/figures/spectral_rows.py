@@ -6,13 +6,12 @@ the bins and `modes_outside` are all modes.
 
 from __future__ import annotations
 
-import numpy as np
 import pandas as pd
 
 from grainmodes import binning, statistics
 from grainmodes.binning import Binned
 from grainmodes.ensemble import fineness
-from grainmodes.ensemble.spectra import Spectrum, spectrum
+from grainmodes.ensemble.spectra import shared_edges, spectrum
 from grainmodes.figures.selection import Options
 
 BINS = {
@@ -68,20 +67,6 @@ def compared(ensemble, options: Options, kinds: dict[str, tuple[Point, str]]) ->
     edges = shared_edges(list(spectra.values()), kappa, chosen)
     parts = [of_bins(of.in_bins(edges), kinds[kind][0], kind) for kind, of in spectra.items()]
     return stacked(parts)
-
-
-def shared_edges(spectra: list[Spectrum | Binned], kappa: float, fineness: float) -> np.ndarray:
-    """A's bins over the range of all spectra, or the bins in which one of them was counted.
-
-    One edge only where there is no vibration.
-    """
-    for of in spectra:
-        if isinstance(of, Binned):
-            return of.edges
-    frequency = np.concatenate([of.frequency.ravel() for of in spectra])
-    if not np.isfinite(frequency).any():
-        return np.zeros(1)
-    return binning.bin_edges(kappa, np.nanmin(frequency), np.nanmax(frequency), fineness)
 
 
 def of_bins(modes: Binned, point: Point, kind: str) -> pd.DataFrame:

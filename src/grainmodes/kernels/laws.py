@@ -38,6 +38,9 @@ from typing import NamedTuple
 from grainmodes.kernels.compiler import implements
 from grainmodes.parameters.law import ContactLaw
 
+AT_THRESHOLD = 1.0 - 1e-12
+"""Part of s* from which a contact slides: a spring that has slipped is held at s* to rounding."""
+
 
 class Hertz(NamedTuple):
     """Normal force k_N ξ^(3/2)."""
@@ -201,7 +204,7 @@ def _sharp(tangential, normal, overlap, displacement):
     force, stiffness = normal_response(normal, overlap)
     scale, slope = tangential_scale(normal, overlap)
     k, s, mu = tangential.stiffness, displacement, tangential.friction_coefficient
-    if k * scale * abs(s) >= mu * force:
+    if k * scale * abs(s) >= AT_THRESHOLD * mu * force:
         sign = math.copysign(1.0, s)
         return -mu * force * sign, 0.0, -mu * stiffness * sign
     return -k * scale * s, -k * scale, -k * slope * s
@@ -218,7 +221,7 @@ def _sharp_force(tangential, normal, overlap, displacement):
     force, stiffness = normal_response(normal, overlap)
     scale, _ = tangential_scale(normal, overlap)
     mu = tangential.friction_coefficient
-    if abs(displacement) >= mu * force:
+    if abs(displacement) >= AT_THRESHOLD * mu * force:
         sign = math.copysign(1.0, displacement)
         return -mu * force * sign, 0.0, -mu * stiffness * sign
     return -displacement, -tangential.stiffness * scale, 0.0

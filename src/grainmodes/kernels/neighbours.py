@@ -38,9 +38,11 @@ class Neighbours(NamedTuple):
 
 @kernel
 def separation(x, y, i, j, scale, strain):
-    """r⃗_i − r⃗_j of the nearest image; scale = L · 2⁻⁶⁴."""
-    dy = np.float64(y[i] - y[j]) * scale
-    return np.float64(x[i] - x[j]) * scale + strain * dy, dy
+    """r⃗_i − r⃗_j of the nearest image; scale = L · 2⁻⁶⁴; `strain` is None in a box never sheared."""
+    dx, dy = np.float64(x[i] - x[j]) * scale, np.float64(y[i] - y[j]) * scale
+    if strain is None:
+        return dx, dy
+    return dx + strain * dy, dy
 
 
 @kernel

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 SPECTRA = ("none", "counts", "bands", "eigenvalues", "modes")
 SPECTRUM_METHODS = ("auto", "dense", "windows", "counting")
 
-DENSE_BINS_UP_TO = 2000
-"""Degrees of freedom up to which LAPACK's whole spectrum is cheaper than counts at edges."""
+DENSE_COUNTS_UP_TO = 2000
+"""Degrees of freedom up to which LAPACK's eigenvalues are cheaper than counts at edges."""
 
 DENSE_MODES_UP_TO = 5000
-"""Degrees of freedom up to which LAPACK finds all eigenvalues faster than windows do."""
+"""Degrees of freedom up to which LAPACK finds all modes faster than windows and bands do."""
 
 BINNED = ("counts", "bands")
 """Kinds of spectrum that hold bins rather than modes."""

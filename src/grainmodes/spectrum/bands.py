@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import stdtrit
 
-from grainmodes.parameters.spectra import DENSE_BINS_UP_TO, SpectrumChoices
+from grainmodes.parameters.spectra import DENSE_COUNTS_UP_TO, DENSE_MODES_UP_TO, SpectrumChoices
 from grainmodes.spectrum import dense, windows
 from grainmodes.spectrum.counting import Sums, counts, rotational_sums
 from grainmodes.spectrum.measures import participation_ratio, rotational_fraction
@@ -64,7 +64,8 @@ def band_averages(
     """
     if not problem.symmetric:
         raise ValueError("bins of frequency need a symmetric Jacobian, every s = 0")
-    small = choices.method == "auto" and problem.size <= DENSE_BINS_UP_TO
+    limit = DENSE_MODES_UP_TO if averages else DENSE_COUNTS_UP_TO
+    small = choices.method == "auto" and problem.size <= limit
     if small or choices.method == "dense":
         return _dense(problem, edges, averages)
     shift = problem.shift(choices.factorisation)

@@ -5,7 +5,7 @@
 | dense   | M³, 5 M² numbers                                     | M ≤ 5000           |
 | windows | M^1.5, sparse factors; the same numbers, certified   | larger symmetric J |
 
-Windows cover |λ| ≥ `FLOOR`, those of λ < 0 as the positive eigenvalues of −J; of the modes between,
+Windows cover |λ| ≥ `floor`, those of λ < 0 as the positive eigenvalues of −J; of the modes between,
 which are zero modes to rounding, they give the number, an eigenvalue 0 and nothing else.
 """
 
@@ -23,6 +23,9 @@ from grainmodes.spectrum.problem import Problem
 
 FLOOR = 1e-14
 """λ of the lowest safe edge, ω t_0 = 1e-7: what lies below cannot be told from a zero mode."""
+
+ROUNDING = 1e-15
+"""The same relative to the bound of |λ|, which stiff tangential springs raise: k_T/k_N > 1."""
 
 
 @dataclass(frozen=True)
@@ -88,8 +91,8 @@ def _spectrum(measured: Measured, **more) -> Spectrum:
 
 
 def _by_windows(problem: Problem, forces, backend: str, processes: int) -> Spectrum:
-    shift = problem.shift(backend)
-    unstable, below = (shift.to(edge).count for edge in (-FLOOR, FLOOR))
+    shift, edge = problem.shift(backend), floor(problem)
+    unstable, below = (shift.to(end).count for end in (-edge, edge))
     found = [_zero_modes(below - unstable, forces.shape[1])]
     if unstable:
         turned = replace(problem, matrix=-problem.matrix)
@@ -99,9 +102,14 @@ def _by_windows(problem: Problem, forces, backend: str, processes: int) -> Spect
     return _spectrum(Measured.joined(found), method="windows", factorisation=shift.name)
 
 
+def floor(problem: Problem) -> float:
+    """λ up to which an eigenvalue of this matrix cannot be told from a zero mode."""
+    return max(FLOOR, ROUNDING * problem.bound)
+
+
 def _window_by_window(problem: Problem, shift, forces, processes: int) -> list[Measured]:
-    """The modes of every λ ≥ `FLOOR`."""
-    parts = windows.split(shift, FLOOR, problem.bound)
+    """The modes of every λ ≥ `floor`."""
+    parts = windows.split(shift, floor(problem), problem.bound)
     measure = partial(Measured.of, problem.matrix, problem.k, forces)
     return windows.measured(problem, shift.name, parts, measure, processes)
 

@@ -8,8 +8,9 @@ vectors grows the basis V of a Krylov space,
 
 in which (J − σ)⁻¹ is the matrix T = Vᵀ (J − σ)⁻¹ V; for y an eigenvector of T the residual is
 ‖R y_last‖. Solving b right-hand sides at once takes a fifth of the time of one after the other, and
-a block finds eigenvalues of multiplicity up to b. Every new block is orthogonalised against its two
-predecessors and then against all, so no copies of modes appear.
+a block finds eigenvalues of multiplicity up to b. Every new block is orthogonalised against all
+before it, and once more after it has been scaled: where the space has exhausted a soft band next to
+a gap, W falls by the ratio of the bands, and what rounding left of the old vectors grows by it.
 
 The translations are left out of the space: their θ = −1/σ is as large as those of a soft rotational
 band, but in the factors they are lost in the rounding of ‖J‖, and at k_T/k_N = 1e-10 their error of
@@ -70,14 +71,16 @@ class Krylov:
         old, new = self.size, self.size + self._block
         self._basis[:, old:new] = self._next
         image = self._outside(self._shift.solve(self._next))
-        near, all_ = slice(max(0, old - self._block), new), slice(0, new)
-        for part in (near, all_):
-            basis = self._basis[:, part]
+        basis, scale = self._basis[:, :new], np.eye(self._block)
+        for _ in range(2):
             overlap = basis.T @ image
-            image -= basis @ overlap
-            self._projected[part, old:new] += overlap
+            self._projected[:new, old:new] += overlap @ scale
+            image, triangle = scipy.linalg.qr(
+                self._outside(image - basis @ overlap), mode="economic"
+            )
+            scale = triangle @ scale
         self._projected[old:new, :old] = self._projected[:old, old:new].T
-        self._next, self._remainder = scipy.linalg.qr(image, mode="economic")
+        self._next, self._remainder = image, scale
         self.size = new
 
     def _outside(self, block: np.ndarray) -> np.ndarray:

@@ -23,6 +23,7 @@ PROTOCOL = Protocol(spectrum=CHOICES)
         ("counts", 256, "counting", {"count_superlu": 641}),
         ("counts", 4096, "dense", {"dense_values": 1}),
         ("bands", 256, "auto", {"dense_modes": 1}),
+        ("bands", 1024, "auto", {"dense_modes": 1}),
         ("bands", 65536, "auto", {"count_superlu": 8 * 641, "window_superlu": 60 * 641}),
         ("bands", 4096, "auto", {"count_superlu": 8 * 641, "window_superlu": 3 * 4096}),
         ("eigenvalues", 1024, "auto", {"dense_values": 1}),

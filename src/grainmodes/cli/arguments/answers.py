@@ -1,4 +1,4 @@
-"""Commands that only tell: what a file holds, what a scene will cost."""
+"""Commands that only tell: what a file holds, what a scene costs, what an accuracy needs."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from grainmodes.cli.arguments import options
 
 def define(commands) -> None:
     """Add these commands."""
-    for add in (_show, _cost):
+    for add in (_show, _cost, _plan):
         add(commands)
 
 
@@ -24,6 +24,24 @@ def _cost(commands) -> None:
     command = options.command(commands, "cost", "scenes:cost", sentence)
     command.add_argument("config", type=Path, help="a scene, as config/default.yaml")
     command.add_argument("--cores", type=int, default=2, help="jobs at once; 2 if absent")
+    _costs(command)
+
+
+def _plan(commands) -> None:
+    sentence = "Say how many seeds and CPU hours an accuracy needs, from a pilot ensemble."
+    command = options.command(commands, "plan", "scenes:plan", sentence)
+    command.add_argument("ensemble", type=Path, help="file of `grainmodes ensemble`")
+    command.add_argument(
+        "--target-error",
+        type=options.share,
+        required=True,
+        metavar="ERROR",
+        help="relative standard error of G and of D per bin, as 1%% or 0.01",
+    )
+    _costs(command)
+
+
+def _costs(command) -> None:
     command.add_argument(
         "--costs", type=Path, metavar="FILE", help="costs on another machine: `snakemake growth`"
     )

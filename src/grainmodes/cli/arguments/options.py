@@ -99,6 +99,18 @@ def seconds(text: str) -> float:
     return value
 
 
+def share(text: str) -> float:
+    """A part of a whole, as 1% or 0.01."""
+    number, percent, rest = text.partition("%")
+    try:
+        value = float(number) / (100.0 if percent else 1.0)
+    except ValueError:
+        value = 0.0
+    if rest or not 0.0 < value < 1.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is no part of a whole, needed is one as 1%")
+    return value
+
+
 def json_object(text: str) -> dict:
     """A JSON object."""
     try:

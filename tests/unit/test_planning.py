@@ -1,0 +1,177 @@
+"""How many seeds an accuracy needs: the statistics, what a point of a pilot says, the command."""
+
+import re
+
+import numpy as np
+import pytest
+from scipy.stats import chi2
+
+import synthetic
+from grainmodes.cli import main
+from grainmodes.cost import read_table
+from grainmodes.dataset.files import BlockError
+from grainmodes.ensemble import open_ensemble
+from grainmodes.parameters.protocol import Protocol
+from grainmodes.planning import Plan, needed, planned
+from grainmodes.planning.hours import seconds_per_seed
+from grainmodes.planning.quantities import FEW
+
+STAGES = ("packings", "rigidity", "spectrum_bins")
+DENSE = (64, 0.9, 1e-4)
+
+
+def spread(mean: float, deviation: float, size: int) -> np.ndarray:
+    """Samples with exactly this mean and this standard deviation."""
+    draws = np.random.default_rng(0).standard_normal(size)
+    return mean + deviation * (draws - draws.mean()) / draws.std(ddof=1)
+
+
+def pilot(folder, **changes):
+    """An ensemble of one point, its blocks changed: stage → variables."""
+    paths = []
+    for stage in changes.get("stages", STAGES):
+        block = synthetic.block(stage, *DENSE, range(8), **changes.get(stage, {}))
+        paths.append(folder / f"{stage}.nc")
+        synthetic.write_block(paths[-1], block)
+    synthetic.write_block(folder / "point.nc", synthetic.gather_point(paths))
+    synthetic.write_ensemble([folder / "point.nc"], folder / "pilot.nc", {})
+    return folder / "pilot.nc"
+
+
+def plans(path, target=0.01):
+    """Name → plan of the point, and the sentences on what has none."""
+    with open_ensemble(path) as opened:
+        found = planned(opened, DENSE, target)
+    named = {of.quantity: of for of in found if isinstance(of, Plan)}
+    return named, [of.sentence for of in found if not isinstance(of, Plan)]
+
+
+def test_seeds_follow_from_spread_and_target():
+    need = needed(spread(2.0, 0.2, 8), 0.01)
+    assert need.seeds == 100
+    assert need.error == pytest.approx(0.1 / 8**0.5)
+    assert needed(spread(-2.0, 0.2, 8), 0.005).seeds == 400
+    assert needed(spread(2.0, 0.2, 8), 0.5).seeds == 2
+
+
+def test_the_interval_is_that_of_a_variance():
+    need = needed(spread(2.0, 0.2, 8), 0.001)
+    assert need.low == np.ceil(1e4 * 7 / chi2.ppf(0.975, 7))
+    assert need.high == np.ceil(1e4 * 7 / chi2.ppf(0.025, 7))
+
+
+def test_every_column_is_planned_by_itself():
+    one, other = spread(2.0, 0.2, 8), spread(1.0, 0.3, 8)
+    both = needed(np.stack([one, other], axis=1), 0.01)
+    assert both.seeds.tolist() == [100, 900]
+    assert both.high[1] == needed(other, 0.01).high
+
+
+@pytest.mark.parametrize("size", [3, 8, 30])
+def test_the_interval_holds_the_number_of_seeds_as_often_as_it_says(size):
+    draws = np.random.default_rng(size)
+    need = needed(draws.normal(1.0, 0.05, (size, 4000)), 1e-4)
+    true = 0.05**2 / 1e-8
+    covered = np.mean((need.low <= true) & (need.high >= true))
+    assert covered == pytest.approx(0.95, abs=0.012)
+
+
+def test_as_many_seeds_as_planned_reach_the_target():
+    draws = np.random.default_rng(3)
+    seeds = int(needed(spread(1.0, 0.1, 8), 0.02).seeds)
+    means = draws.normal(1.0, 0.1, (4000, seeds)).mean(axis=1)
+    assert means.std() == pytest.approx(0.02, rel=0.05)
+
+
+def test_g_is_planned_from_its_converged_seeds(tmp_path):
+    g = spread(1e-2, 1e-3, 8)
+    g[0], converged = 1e3, np.array([0, *[1] * 7])
+    named, _ = plans(pilot(tmp_path, rigidity={"g": g, "converged": converged}))
+    assert named["G"].samples == 7
+    assert named["G"].need.seeds == needed(g[1:], 0.01).seeds
+
+
+def test_the_bin_that_needs_most_drives_the_plan(tmp_path):
+    """Two bins with modes enough, one of them with twice the spread of the other."""
+    count = np.zeros((8, len(synthetic.edges(1e-4)) - 1))
+    count[:, 5] = [90, 110] * 4
+    count[:, 9] = [80, 120] * 4
+    named, left = plans(pilot(tmp_path, spectrum_bins={"bin_count": count}))
+    worst, median = named["D, worst bin"], named["D, median bin"]
+    assert worst.place == tuple(synthetic.edges(1e-4)[9:11])
+    assert median.place == tuple(synthetic.edges(1e-4)[5:7])
+    assert worst.need.seeds == needed(count[:, 9], 0.01).seeds
+    assert worst.kind == "bands"
+    assert "48 of 50 bins" in left[0]
+
+
+def test_bins_with_few_modes_are_named(tmp_path):
+    edges = synthetic.edges(1e-4)
+    count = np.full((8, len(edges) - 1), 100)
+    count[:, [3, 4, 7]] = 0
+    count[0, [3, 4]], count[0, 7] = FEW - 1, FEW - 1
+    count[1, 8] = FEW
+    _, (sentence,) = plans(pilot(tmp_path, spectrum_bins={"bin_count": count}))
+    ranges = [f"{edges[a]:.3g}–{edges[b]:.3g}" for a, b in ((3, 5), (7, 8))]
+    assert sentence.endswith(f"fewer than {FEW} modes: omega t_0 in {', '.join(ranges)}")
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"rigidity": {"converged": np.array([1, *[0] * 7])}}, "1 converged seeds, needed are 2"),
+        ({"packings": {"jammed": np.zeros(8, np.int8)}}, "no converged seed is jammed"),
+        ({"rigidity": {"g": np.array([1.0, -1.0] * 4)}}, "G: the mean is 0"),
+        ({"rigidity": {"g": np.array([1.0, *[np.nan] * 7])}}, "G: the spread .* here is 1"),
+        ({"spectrum_bins": {"bin_count": np.zeros((8, 50))}}, "D: no bin of two samples"),
+        ({"stages": STAGES[:2]}, "holds no spectra"),
+        ({"stages": (STAGES[0], STAGES[2])}, "holds no g"),
+    ],
+)
+def test_what_cannot_be_planned_is_said(tmp_path, changes, words):
+    _, left = plans(pilot(tmp_path, **changes))
+    assert any(re.search(words, sentence) for sentence in left)
+
+
+def test_an_ensemble_without_any_observable_is_refused(tmp_path, capsys):
+    path = pilot(tmp_path, stages=("packings", "step_strain"))
+    with pytest.raises(BlockError, match="holds no g"):
+        plans(path)
+    assert main(["plan", str(path), "--target-error", "1%"]) == 1
+    assert "holds no g" in capsys.readouterr().err
+
+
+def test_hours_are_those_of_the_stages():
+    table = read_table()
+    rigidity = seconds_per_seed((1024, 0.9, 1e-4), "none", Protocol(), table)
+    laws = table.laws
+    parts = (laws[name].seconds for name in ("trajectory", "pack", "rigidity"))
+    assert rigidity == pytest.approx(sum(parts))
+    modes = seconds_per_seed((1024, 0.9, 1e-4), "modes", Protocol(), table)
+    assert modes - rigidity == pytest.approx(laws["dense_modes"].seconds - laws["rigidity"].seconds)
+    lower = seconds_per_seed((1024, 0.83, 1e-4), "none", Protocol(), table)
+    assert rigidity - lower == pytest.approx((1 - table.share(0.83)) * laws["trajectory"].seconds)
+
+
+def test_the_command_prints_a_row_for_every_quantity(tmp_path, capsys):
+    path = synthetic.ensemble(tmp_path, ns=(64,), phis=(0.83, 0.9), kts=(1.0,), seeds=8)
+    for target in ("2%", "0.02"):
+        assert main(["plan", str(path), "--target-error", target]) == 0
+        said = capsys.readouterr().out
+        assert "relative standard error of 2 %" in said
+        rows = [line for line in said.splitlines() if line.startswith("    64     0.9")]
+        assert [row[24:38].strip() for row in rows] == ["G", "D, median bin", "D, worst bin"]
+        assert "n = 64, phi = 0.83, k_T = 1: no converged seed is jammed" in said
+
+
+@pytest.mark.parametrize("target", ["0", "1", "100%", "-1%", "1%%", "one", "nan"])
+def test_a_target_is_a_part_of_a_whole(target, capsys):
+    with pytest.raises(SystemExit):
+        main(["plan", "pilot.nc", f"--target-error={target}"])
+    assert "needed is one as 1%" in capsys.readouterr().err
+
+
+def test_a_pilot_from_which_nothing_follows_is_refused(tmp_path, capsys):
+    path = synthetic.ensemble(tmp_path, phis=(0.83,), kts=(1.0,), seeds=8)
+    assert main(["plan", str(path), "--target-error", "1%"]) == 1
+    assert f"{path}: no point has 2 converged seeds" in capsys.readouterr().err
