@@ -114,11 +114,11 @@ def critical_strain(packing: Packing, rule: Interaction, shear: Shear) -> float:
 
 
 DIAGRAM = Diagram(
-    title="Bracket of an event, φ = 0.90, harmonic, k_T = k_N or none",
+    title="Bracket of an event, φ = 0.90, harmonic, k_T/k_N = 1 or no friction",
     setting=r"$\Delta\gamma_{\rm Th}$",
     unit="event",
     error=r"error of $\gamma_c$",
-    reference=r"$\gamma_c$ with $\Delta\gamma_{\rm Th} = 10^{-12}$",
+    reference="the same event in a bracket of 1e-12",
     small=Size((64,), 8),
     large=Size((256, 1024), 32),
     measure=measure,

@@ -254,7 +254,7 @@ class PairWalk:
 
     def _count(self) -> None:
         """Record the state."""
-        self.states.append(self.now.balance)
+        self.states.append(self.now.balance.bare())
         pairs = self.now.pairs
         growth = pairs.growth
         for life, rate in zip(self.alive, growth.tolist(), strict=True):
