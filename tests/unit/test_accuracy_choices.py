@@ -62,6 +62,8 @@ def test_shift_and_share_of_known_samples():
     shift, error = compression_step.shift_of_mean(np.array([1.5, 2.5, 3.5, 4.7]), before)
     assert shift == pytest.approx(np.hypot(0.55, 0.05) / before.std(ddof=1))
     assert error == pytest.approx(0.05 / before.std(ddof=1))
+    one, _ = compression_step.shift_of_one(np.array([0.5, 2.4, 2.6, 9.0]), before)
+    assert one == pytest.approx(0.45 / before.std(ddof=1))
     other = compression_step.other_packings(np.array([1.0, 2.0, 3.001, 4.0]), before)
     assert other == (0.25, pytest.approx(0.1875**0.5 / 2))
 

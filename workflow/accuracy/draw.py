@@ -41,6 +41,9 @@ RING = {"mfc": "none", "mec": "k", "mew": 0.8, "ls": ""}
 SHORT = 100.0
 """Ratio of limits below which powers of ten alone are too few labels."""
 
+FEW = 3
+"""Settings up to which each is named at its axis."""
+
 WIDE = 10.0
 """Ratio of the largest memory to the least from which its axis is logarithmic."""
 
@@ -86,6 +89,9 @@ def draw(figure: Figure, table: Table) -> None:
         _memory(memory, of[name], look)
     for axes, subs in ((against_time, (1, 2, 5)), (against_setting, (1,)), (memory, (1, 3))):
         _scale(axes, subs)
+    tried = table.rows["setting"].unique()
+    if len(tried) <= FEW:
+        against_setting.set_xticks(tried, [f"{setting:g}" for setting in tried], minor=False)
     for axes in (against_time, against_setting):
         axes.set(yscale="log", ylim=(edges[0] / 4, edges[1] * 2))
     against_setting.tick_params(labelleft=False)

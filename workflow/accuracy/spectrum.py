@@ -226,10 +226,10 @@ QUANTITIES = {DENSITY: (FAINT, error_of_density), SHARE: (MIXED, error_of_share)
 """Where each is asked for, and its error."""
 
 DIAGRAM = Diagram(
-    title="Methods for spectra, φ = 0.90: D(ω) at k_T/k_N = 1e-8, ψ^R at 1e-2",
+    title=r"Spectra, φ = 0.90: $D(\omega)$ at $k_T/k_N = 10^{-8}$, $\psi^R$ at $10^{-2}$",
     setting="modes, fineness, cells a bin, or moments",
     unit="spectrum",
-    error="|ln ω/ω_ref| at the same rank; |ψ^R − ψ^R_ref| of a bin",
+    error=r"$|\ln\,\omega/\omega_{\rm ref}|$ of a mode; $|\psi^R - \psi^R_{\rm ref}|$ of a bin",
     reference="eigenpairs sharpened in extended precision; at large N 4 times the edges and cells",
     small=Size((256, 1024), 1),
     large=Size((4096, 16384, 65536), 1),
