@@ -31,6 +31,14 @@ def in_absolute_doubles(packing: Packing) -> Packing:
     )
 
 
+def drifted(packing: Packing, step: float, steps: int) -> Packing:
+    """The packing after `steps` steps along x, added up as doubles in d."""
+    position = packing.position
+    for _ in range(steps):
+        position[:, 0] += step
+    return Packing.from_positions(position, packing.diameter, packing.box_length)
+
+
 def eigenpairs_near(shift: SymmetricShift, sigma: float, size: int, block: int):
     """Eigenpairs nearest σ by block Lanczos, each block orthogonalised against all others once."""
     start = np.random.default_rng(0).standard_normal((shift.size, block))

@@ -124,6 +124,15 @@ def with_slip(packing: Packing, draws, slip: float) -> Packing:
     return replace(packing, history=History(contacts.i, contacts.j, s))
 
 
+def crystal(columns: int, rows: int, spacing: float) -> Packing:
+    """Rows of grains of diameter 1, `spacing` apart, every second row shifted by half of it."""
+    box_length = columns * spacing
+    row, column = np.divmod(np.arange(columns * rows), columns)
+    x = (column + 0.5 * (row % 2)) * spacing
+    position = np.stack([x, row * box_length / rows], axis=1)
+    return Packing.from_positions(position + 0.123, np.ones(columns * rows), box_length)
+
+
 def keeping(law: ContactLaw, packing: Packing) -> Packing:
     """The packing with what the law remembers of its springs: s, or h = k s."""
     contacts = find_contacts(packing)

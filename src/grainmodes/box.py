@@ -50,6 +50,13 @@ def check_grains(position, diameter, mass) -> None:
             raise PackingError(f"{name} of grain {grain} is {array[grain]}: not a valid number")
 
 
+def check_rotation(rotation) -> None:
+    """Refuse rotations (N,), if there are any, that are no numbers."""
+    bad = [] if rotation is None else np.flatnonzero(~np.isfinite(rotation))
+    if len(bad):
+        raise PackingError(f"rotation of grain {bad[0]} is {rotation[bad[0]]}: not a valid number")
+
+
 def check_springs(history) -> None:
     """Refuse a history, if there is one, with a displacement that is no number."""
     if history is None:
@@ -62,8 +69,11 @@ def check_springs(history) -> None:
 
 def check_box(diameter: np.ndarray, box_length: float, strain: float) -> None:
     """A touching pair must be the image that wrapping s to [−1/2, 1/2) finds: r √(1 + γ²) < L/2."""
+    for name, value in (("box_length", box_length), ("strain", strain)):
+        if not np.isfinite(value):
+            raise PackingError(f"{name} = {value}: not a valid number")
     least = 2.0 * diameter.max() * np.sqrt(1.0 + strain**2)
-    if not (np.isfinite(box_length) and np.isfinite(strain) and box_length > least):
+    if not box_length > least:
         raise PackingError(
             f"box_length = {box_length} at strain {strain}: must exceed {least:.6g}, two diameters "
             "times sqrt(1 + strain^2), or a grain meets two images of another"

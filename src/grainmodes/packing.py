@@ -25,6 +25,7 @@ from grainmodes.box import (
     PackingError,
     check_box,
     check_grains,
+    check_rotation,
     check_springs,
     to_fraction,
     to_step,
@@ -140,6 +141,7 @@ class Packing:
         """
         check_grains(self.fraction.T, self.diameter, self.mass)
         check_box(self.diameter, self.box_length, self.strain)
+        check_rotation(self.rotation)
         check_springs(self.history)
         return self
 

@@ -99,6 +99,8 @@ def _extend(path: Path, work: str, longest: float, scratch: Path) -> None:
     """Rows of a work at the sizes that are missing, up to the limit."""
     rows = read(path)[1]
     seconds = rows["seconds"][rows["work"] == work].tolist()
+    if not seconds:
+        apart("timed", work, SIZES[0], scratch)  # what is compiled now would count as memory
     for n in SIZES[len(seconds) :]:
         if expected(seconds) > longest:
             return
@@ -108,10 +110,10 @@ def _extend(path: Path, work: str, longest: float, scratch: Path) -> None:
 
 
 def expected(seconds: list[float]) -> float:
-    """CPU seconds of the next size: the last step once more, and no decrease."""
+    """CPU seconds of the next size: the last step once more, but no decrease, and at most N³."""
     if len(seconds) < 2:
         return max(seconds, default=0.0)
-    return seconds[-1] * max(1.0, seconds[-1] / seconds[-2])
+    return seconds[-1] * min(max(1.0, seconds[-1] / seconds[-2]), 8.0)
 
 
 def _add(path: Path, work: str, n: int, seconds: float, units: float, megabytes: float) -> None:

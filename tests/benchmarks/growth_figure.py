@@ -38,7 +38,7 @@ LABELS = {
     "shear": "shear, 200 steps",
 }
 
-SIZE = (7.0, 4.6)
+SIZE = (7.0, 5.6)
 """Inches."""
 
 
@@ -65,20 +65,19 @@ def draw(machine: str, rows: pd.DataFrame) -> plt.Figure:
             _panel(axes[place, index], samples, name, works, found, place)
         appearance.name_panel(axes[0, index], index, title)
         _legend(axes[1, index], works, found)
-    axes[0, 0].set(ylabel="CPU s of one sample", xlim=(45, 90_000))
-    axes[1, 0].set(ylabel="memory above a bare job (MB)", ylim=(LOW, None))
-    figure.suptitle(f"{machine}, one thread; lines: fits to the last {LAST} sizes")
+    axes[0, 0].set(ylabel="CPU time of a sample (s)", xlim=(45, 90_000))
+    axes[1, 0].set(ylabel="memory it adds (MB)")
+    figure.suptitle(f"{machine}, one thread\n{LINES}")
     return figure
 
 
-LOW = 0.8
-"""MB at the lower end of the axis: less than 1 MB is drawn as 1 MB."""
+LINES = f"lines: fits to the last {LAST} sizes; below a name: exponents of time, of memory"
 
 
 def _panel(axes: Axes, samples, name: str, works, found, place: int) -> None:
     """Symbols for what was measured, lines for the fitted laws."""
     for work, colour, marker in appearance.series(list(works)):
-        of = samples[samples["work"] == work]
+        of = samples[(samples["work"] == work) & samples[name].notna()]
         axes.loglog(of["n"], of[name], marker, color=colour, mfc="none", markersize=3.6)
         if work in found:
             _line(axes, found[work][place], of["n"].to_numpy()[-LAST:], colour)
@@ -101,5 +100,7 @@ def _legend(axes: Axes, works, found) -> None:
 
 
 def _exponent(law: Fit) -> str:
+    if not np.isfinite(law.p):
+        return "–"
     error = rf" \pm {law.p_error:.2f}" if np.isfinite(law.p_error) else ""
     return f"${law.p:.2f}{error}$"

@@ -19,8 +19,8 @@ from grainmodes.cost.table import COSTS, REFERENCE
 LAST = 4
 """So many of the largest sizes are fitted: small ones are governed by overheads."""
 
-LEAST = 1.0
-"""MB: less cannot be told from a bare job."""
+LEAST = 3.0
+"""MB above a bare job: less cannot be told from nothing."""
 
 EDGES = 160
 """Edges of bins of a usual density of states."""
@@ -48,25 +48,32 @@ def fitted(n, values) -> Fit:
 def per_sample(rows: pd.DataFrame) -> pd.DataFrame:
     """Rows with the CPU seconds of a whole sample, and the memory in MB above that of a bare job.
 
-    A sample of counts has 160 edges; the other works are timed on a whole sample.
+    A sample of counts has 160 edges; the other works are timed on a whole sample. Memory that
+    cannot be told from nothing is NaN.
     """
     bare = rows.loc[rows["work"] == "bare", "megabytes"].item()
     of = rows[rows["work"] != "bare"]
     edges = of["work"].str.startswith("count").map({True: EDGES, False: np.nan})
     seconds = (of["seconds"] * edges / of["units"]).fillna(of["seconds"])
-    memory = (of["megabytes"] - bare).clip(lower=LEAST)
-    return of.assign(seconds=seconds, megabytes=memory)
+    memory = of["megabytes"] - bare
+    return of.assign(seconds=seconds, megabytes=memory.where(memory >= LEAST))
 
 
 def laws(rows: pd.DataFrame) -> dict[str, tuple[Fit, Fit]]:
     """Work → the law of its time and that of its memory, per sample, for two sizes or more."""
     return {
-        work: tuple(
-            fitted(of["n"].tolist(), of[name].tolist()) for name in ("seconds", "megabytes")
-        )
+        work: (_law(of, "seconds"), _law(of, "megabytes"))
         for work, of in per_sample(rows).groupby("work", sort=False)
         if len(of) > 1
     }
+
+
+def _law(of: pd.DataFrame, name: str) -> Fit:
+    """The law of the sizes at which there is a number; NaN for fewer than two."""
+    known = of[of[name].notna()]
+    if len(known) < 2:
+        return Fit(*[np.nan] * 4)
+    return fitted(known["n"].tolist(), known[name].tolist())
 
 
 def exponents(rows: pd.DataFrame) -> str:
@@ -81,6 +88,8 @@ def exponents(rows: pd.DataFrame) -> str:
 
 def spoken(fit: Fit) -> str:
     """An exponent with its error."""
+    if not np.isfinite(fit.p):
+        return "–"
     return f"{fit.p:.2f}" + (f" ± {fit.p_error:.2f}" if np.isfinite(fit.p_error) else "")
 
 
@@ -105,7 +114,8 @@ def _line(work: str, kept: dict, rows: pd.DataFrame) -> str:
 def _row(of: pd.DataFrame, rows: pd.DataFrame) -> tuple[dict, str]:
     sizes = of["n"].tolist()
     time = fitted(sizes, (of["seconds"] / of["units"]).tolist())
-    memory = fitted(sizes, per_sample(rows).loc[of.index, "megabytes"].tolist())
+    megabytes = per_sample(rows).loc[of.index, "megabytes"].fillna(LEAST)
+    memory = fitted(sizes, megabytes.tolist())
     values = {
         "seconds": _digits(time.c),
         "exponent": _digits(time.p),

@@ -20,22 +20,13 @@ import numpy as np
 import pytest
 
 from grainmodes.forces import largest, net_force
-from grainmodes.packing import Packing, find_contacts
+from grainmodes.packing import find_contacts
 from grainmodes.rigidity import rigidity
 from grainmodes.spectrum import spectrum
-from specimens import elastic
+from specimens import crystal, elastic
 
 COLUMNS, ROWS = 7, 8
 KTS = (0.0, 1e-8, 1e-2, 1.0, 2.0, 10.0)
-
-
-def crystal(columns: int, rows: int, spacing: float) -> Packing:
-    """Grains of diameter 1, rows a = `spacing` wide."""
-    box_length = columns * spacing
-    row, column = np.divmod(np.arange(columns * rows), columns)
-    x = (column + 0.5 * (row % 2)) * spacing
-    position = np.stack([x, row * box_length / rows], axis=1)
-    return Packing.from_positions(position + 0.123, np.ones(columns * rows), box_length)
 
 
 def contact(normal: str, r: float, kt: float):

@@ -7,7 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from accuracy import NAMES, draw, force_tolerance, growth, strain_step, table, time_step
+from accuracy import (
+    NAMES,
+    backtracking,
+    draw,
+    force_tolerance,
+    growth,
+    strain_step,
+    table,
+    time_step,
+)
 from accuracy.diagram import FAILED, Row, Sample, Size, apart, knee, row, timed
 
 SCRIPTS = Path(__file__).parents[2] / "workflow" / "accuracy"
@@ -70,7 +79,7 @@ def test_a_short_call_is_timed_until_the_clock_sees_it():
 
 def measured(rows: list[Row]) -> table.Table:
     """A table of these rows, as measured here."""
-    return table.table_of(strain_step.DIAGRAM, rows)
+    return table.table_of(strain_step.DIAGRAM, strain_step.DIAGRAM.small, rows)
 
 
 def test_a_table_comes_back_to_the_last_digit(tmp_path):
@@ -81,6 +90,7 @@ def test_a_table_comes_back_to_the_last_digit(tmp_path):
     back = table.read(path)
     assert str(list(table.curves(back).values())) == str([rows[:4], rows[4:]])
     assert back.words["title"] == strain_step.DIAGRAM.title
+    assert back.words["grains"] == "64"
     assert f"Python {sys.version.split()[0]}" in back.words["machine"]
     assert back.words["code"].startswith("0.1.0+")
 
@@ -88,7 +98,7 @@ def test_a_table_comes_back_to_the_last_digit(tmp_path):
 def test_a_file_that_is_no_table_is_refused(tmp_path):
     path = tmp_path / "table.csv"
     path.write_text("a,b\n1,2\n")
-    with pytest.raises(ValueError, match=r"table.csv: no title, setting, .* on top"):
+    with pytest.raises(ValueError, match=r"table.csv: no title, grains, .* on top"):
         table.read(path)
     head = "".join(f"# {name}: x\n" for name in table.WORDS)
     path.write_text(f"{head}a,b\n1,2\n")
@@ -133,8 +143,7 @@ def test_bad_input_gets_one_sentence(tmp_path, words, sentence):
 
 def test_every_diagram_has_a_module_and_says_what_it_needs():
     texts = {path.stem: path.read_text(encoding="utf-8") for path in SCRIPTS.glob("*.py")}
-    drawn = {name for name, text in texts.items() if "DIAGRAM = Diagram(" in text}
-    assert drawn == set(NAMES)
+    assert {name for name, text in texts.items() if "\nDIAGRAM = " in text} == set(NAMES)
 
 
 def test_step_strains(monkeypatch):
@@ -200,3 +209,19 @@ def test_the_growth_rate_of_a_release_has_order_two():
 def test_a_time_step_beyond_the_limit_has_failed(stepped):
     beyond = [row for row in stepped if row.setting == 4.0]
     assert {(row.samples, row.failed) for row in beyond} == {(0, 1)}
+
+
+def test_brackets(monkeypatch):
+    monkeypatch.setattr(backtracking, "WIDTHS", (1e-4, 1e-7))
+    monkeypatch.setattr(backtracking, "COARSE", (1e-5,))
+    rows = list(backtracking.measure(Size((32,), 2)))
+    error = {(row.curve, row.setting): row.error for row in rows}
+    for name in ("friction", "no friction"):
+        assert error[f"{name}, steps taken back", 1e-7] <= 0.5e-7
+        assert error[f"{name}, steps taken back", 1e-4] <= 1e-4
+    assert error["no friction, every step as short", 1e-5] <= 1e-5
+
+
+def test_a_shear_without_an_event_has_no_critical_strain():
+    packing, rule = backtracking.harmonic(32, 0), backtracking.FRICTION
+    assert math.isnan(backtracking.critical_strain(packing, rule, backtracking.Shear(2e-4)))

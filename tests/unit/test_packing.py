@@ -180,7 +180,8 @@ def test_two_grains_in_one_place_are_refused_by_number():
         ({"mass": [1.0, 0.0]}, "mass of grain 1"),
         ({"mass": [1.0]}, "do not fit"),
         ({"box_length": 2.0}, "two diameters"),
-        ({"box_length": np.nan}, "two diameters"),
+        ({"box_length": np.nan}, "box_length = nan"),
+        ({"strain": np.inf}, "strain = inf"),
         ({"position": np.zeros((1, 2)), "diameter": [1.0]}, "at least 2 grains"),
     ],
 )

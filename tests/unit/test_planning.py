@@ -133,6 +133,14 @@ def test_what_cannot_be_planned_is_said(tmp_path, changes, words):
     assert any(re.search(words, sentence) for sentence in left)
 
 
+@pytest.mark.parametrize(("deviation", "unsure"), [(0.9, 0), (1.0, 1)])
+def test_a_mean_that_is_hardly_known_is_named(tmp_path, deviation, unsure):
+    count = np.full((8, len(synthetic.edges(1e-4)) - 1), 100)
+    stages = {"rigidity": {"g": spread(1.0, deviation, 8)}, "spectrum_bins": {"bin_count": count}}
+    _, left = plans(pilot(tmp_path, **stages))
+    assert left == ["G: the pilot knows its mean to 35% only, its seeds less"][:unsure]
+
+
 def test_an_ensemble_without_any_observable_is_refused(tmp_path, capsys):
     path = pilot(tmp_path, stages=("packings", "step_strain"))
     with pytest.raises(BlockError, match="holds no g"):

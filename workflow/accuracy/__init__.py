@@ -7,9 +7,10 @@ A diagram is a module of this folder with a `DIAGRAM`; `diagram.py` says what th
 """
 
 NAMES = (
-    "strain_step",
     "force_tolerance",
+    "strain_step",
     "time_step",
+    "backtracking",
     "compression_step",
     "spectrum",
     "seeds",

@@ -135,7 +135,7 @@ ALL = FEW | {
 """What is measured, and on which column."""
 
 DIAGRAM = Diagram(
-    title="Compression step and intermediate balance, φ = 0.87, N = 64",
+    title="Compression step and intermediate balance, φ = 0.87",
     setting="Φ",
     unit="packing",
     error="share, shift of a mean / σ, or KS distance",

@@ -22,6 +22,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from accuracy.diagram import Row, knee
 from accuracy.table import Table, curves, read
@@ -36,6 +37,9 @@ RINGS = {"knee": ("o", 9.0), "default": ("s", 10.5)}
 """Open symbols around a point, and their sizes."""
 
 RING = {"mfc": "none", "mec": "k", "mew": 0.8, "ls": ""}
+
+SHORT = 100.0
+"""Ratio of limits below which powers of ten alone are too few labels."""
 
 WIDE = 10.0
 """Ratio of the largest memory to the least from which its axis is logarithmic."""
@@ -80,12 +84,14 @@ def draw(figure: Figure, table: Table) -> None:
         _curve(against_time, of[name], look, edges, lambda row: row.seconds, name)
         _curve(against_setting, of[name], look, edges, lambda row: row.setting)
         _memory(memory, of[name], look)
+    for axes, subs in ((against_time, (1, 2, 5)), (against_setting, (1,)), (memory, (1, 3))):
+        _scale(axes, subs)
     for axes in (against_time, against_setting):
-        axes.set(xscale="log", yscale="log", ylim=(edges[0] / 4, edges[1] * 2))
+        axes.set(yscale="log", ylim=(edges[0] / 4, edges[1] * 2))
     against_setting.tick_params(labelleft=False)
     against_time.set(xlabel=f"CPU s per {words['unit']}", ylabel=words["error"])
     against_setting.set(xlabel=words["setting"])
-    memory.set(xscale="log", xlabel=against_time.get_xlabel(), ylabel="peak memory / MB")
+    memory.set(xlabel=against_time.get_xlabel(), ylabel="peak memory / MB")
     _scale_memory(memory, table)
     for kind, (marker, size) in RINGS.items():
         against_time.plot([], [], marker, label=kind, ms=size, **RING)
@@ -140,6 +146,16 @@ def _memory(axes: Axes, rows: list[Row], look: Look) -> None:
     axes.plot([row.seconds for row in rows], [row.megabytes for row in rows], ms=3.0, **style)
 
 
+def _scale(axes: Axes, subs: tuple[int, ...]) -> None:
+    """A logarithmic axis; one that is short has labels at these parts of a decade."""
+    axes.set_xscale("log")
+    low, high = axes.get_xlim()
+    if high < SHORT * low:
+        axes.xaxis.set_major_locator(LogLocator(subs=subs))
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+
+
 def _scale_memory(axes: Axes, table: Table) -> None:
     megabytes = table.rows["megabytes"]
     if megabytes.max() > WIDE * megabytes.min():
@@ -150,7 +166,8 @@ def _scale_memory(axes: Axes, table: Table) -> None:
 
 def _caption(table: Table) -> list[str]:
     words, counts = table.words, table.rows["samples"] + table.rows["failed"]
-    text = f"{words['title']}. {appearance.samples(counts)}. Reference: {words['reference']}."
+    of = f"N = {words['grains']}, {appearance.samples(counts)}"
+    text = f"{words['title']}; {of}. Reference: {words['reference']}."
     return [*textwrap.wrap(text, CAPTION), f"{words['machine']}; grainmodes {words['code']}"]
 
 

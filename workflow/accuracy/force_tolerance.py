@@ -135,7 +135,7 @@ def _samples(relax: Callable, tolerance: float, packing: Packing, exact: Answers
 
 
 DIAGRAM = Diagram(
-    title="Tolerance of a force balance",
+    title="Tolerance of a force balance, φ = 0.85; response at k_T/k_N = 1",
     setting=r"$F_{\rm Th} \,/\, k_N d^{3/2}$",
     unit="balance",
     error="relative error",

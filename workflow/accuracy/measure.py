@@ -29,8 +29,8 @@ def measured(name: str, size: str, output: Path) -> None:
     from accuracy.table import table_of, write
 
     diagram = import_module(f"accuracy.{name}").DIAGRAM
-    rows = list(_said(diagram.measure(getattr(diagram, size))))
-    write(output, table_of(diagram, rows))
+    grains = getattr(diagram, size)
+    write(output, table_of(diagram, grains, list(_said(diagram.measure(grains)))))
 
 
 def _said(rows: Iterator[Row]) -> Iterator[Row]:

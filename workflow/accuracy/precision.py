@@ -147,10 +147,10 @@ def jammed(packing: Packing) -> bool:
 
 
 DIAGRAM = Diagram(
-    title="Single and double precision, N = 256, φ = 0.90, near jamming 0.85",
+    title="Single and double precision, φ = 0.90, near jamming 0.85",
     setting="significant bits of a force",
     unit="$10^9$ grain steps",
-    error=r"of forces $/\,\bar f$; left of $\max|F| / \bar f$; of $g$",
+    error=r"error: $F$, $\max|F|$ in $\bar f$; $g$ relative",
     reference="forces in extended precision; the balance by Newton's method",
     small=Size((256,), 8),
     large=Size((1024, 4096), 16),

@@ -106,7 +106,7 @@ def _root_mean_square(values: np.ndarray) -> np.ndarray:
 
 
 DIAGRAM = Diagram(
-    title="Number of seeds, N = 64, φ = 0.90, k_T/k_N = 1e-4",
+    title="Number of seeds, φ = 0.90, k_T/k_N = 1e-4",
     setting="seeds",
     unit="ensemble",
     error="relative error of a mean",

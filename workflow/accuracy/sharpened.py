@@ -23,15 +23,14 @@ CLOSE = 1e-15
 
 def sharpened(problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     """λ (M,) ascending, and X (M, M), one column a mode, of a symmetric J."""
-    matrix = problem.matrix.astype(np.longdouble)
     vectors = dense.eigenpairs(problem)[1]
-    values, residual = _quotients(matrix, vectors)
+    values, residual = _quotients(problem.matrix, vectors)
     gap = values[None, :] - values[:, None]
     apart = np.abs(gap) > CLOSE * np.abs(values).max()
     turn = np.divide(vectors.T @ residual, gap, out=np.zeros_like(gap), where=apart)
     vectors = vectors + vectors @ turn
     vectors /= np.linalg.norm(vectors, axis=0)
-    values, _ = _quotients(matrix, vectors)
+    values, _ = _quotients(problem.matrix, vectors)
     order = np.argsort(values, kind="stable")
     return values[order], vectors[:, order]
 

@@ -37,7 +37,7 @@ from grainmodes.binning import fixed_edges
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing import Packing
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.spectra import DENSE_BINS_UP_TO, DENSE_MODES_UP_TO, SpectrumChoices
+from grainmodes.parameters.spectra import DENSE_COUNTS_UP_TO, DENSE_MODES_UP_TO, SpectrumChoices
 from grainmodes.spectrum import Problem, dense, full_spectrum, problem
 from grainmodes.spectrum.counting import counts, rotational_sums
 from grainmodes.spectrum.measures import rotational_fraction
@@ -153,7 +153,7 @@ class Method(NamedTuple):
 
 
 SMALL, NEVER = range(DENSE_MODES_UP_TO + 1), range(0)
-BEYOND_BINS = range(DENSE_BINS_UP_TO + 1, 10**9)
+BEYOND_COUNTS = range(DENSE_COUNTS_UP_TO + 1, 10**9)
 BEYOND_MODES = range(DENSE_MODES_UP_TO + 1, 10**9)
 
 DENSITY, SHARE = r"$D(\omega)$", r"$\psi^R$"
@@ -163,8 +163,8 @@ METHODS = {
     "dense symmetric": Method(dense_symmetric, BOTH, (), None, DENSE_MODES_UP_TO, SMALL),
     "dense general": Method(dense_general, BOTH, (), None, DENSE_MODES_UP_TO, NEVER),
     "windows": Method(windows, BOTH, (), None, WINDOWS_UP_TO, BEYOND_MODES),
-    "counts": Method(counted, (DENSITY,), FINENESS, SHIPPED.fineness, np.inf, BEYOND_BINS),
-    "counted twice": Method(counted_twice, (SHARE,), CELLS, SHIPPED.substeps, np.inf, BEYOND_BINS),
+    "counts": Method(counted, (DENSITY,), FINENESS, SHIPPED.fineness, np.inf, BEYOND_COUNTS),
+    "counted twice": Method(counted_twice, (SHARE,), CELLS, SHIPPED.substeps, np.inf, BEYOND_MODES),
     "kernel polynomial": Method(stochastic, BOTH, MOMENTS, None, np.inf, NEVER),
 }
 

@@ -104,7 +104,7 @@ def _sample(find: Callable, packing: Packing, protocol: StepStrain) -> Sample:
 
 
 DIAGRAM = Diagram(
-    title="Size of a step strain",
+    title="Size of a step strain, φ = 0.90, k_T/k_N = 1",
     setting="Δγ",
     unit="modulus",
     error=r"$|g_{\rm sim} - g| \,/\, |g|$",

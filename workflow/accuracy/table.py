@@ -13,11 +13,11 @@ import numpy as np
 import pandas as pd
 import scipy
 
-from accuracy.diagram import Diagram, Row
+from accuracy.diagram import Diagram, Row, Size
 from grainmodes.atomic import replaced
 from grainmodes.provenance import code_version
 
-WORDS = ("title", "setting", "unit", "error", "reference", "machine", "code")
+WORDS = ("title", "grains", "setting", "unit", "error", "reference", "machine", "code")
 """Keys of the comment on top."""
 
 
@@ -44,9 +44,10 @@ def _processor() -> str:
     return models[0] if models else platform.processor() or platform.machine()
 
 
-def table_of(diagram: Diagram, rows: list[Row]) -> Table:
+def table_of(diagram: Diagram, size: Size, rows: list[Row]) -> Table:
     """What was measured here and now."""
     words = {name: getattr(diagram, name) for name in WORDS if hasattr(diagram, name)}
+    words |= {"grains": ", ".join(map(str, size.n))}
     words |= {"machine": machine(), "code": code_version()}
     return Table(words, pd.DataFrame(rows, columns=list(Row._fields)))
 

@@ -157,7 +157,7 @@ def _followed(sample: Sample) -> Sample:
 
 
 DIAGRAM = Diagram(
-    title="Time step of velocity Verlet",
+    title="Time step of velocity Verlet, φ = 0.90, k_T/k_N = 1; growth: law of C, N = 32",
     setting=r"$\Delta t \,/\, t_0$",
     unit="$t_0$ and grain",
     error="relative error",

@@ -1,7 +1,7 @@
 # Work-precision diagrams: what each numerical choice costs in CPU time, and the error it leaves.
 
 DIAGRAM = "results/accuracy/{size}/{name}"
-SHARED = ("diagram", "kernel_polynomial", "loops", "packings", "sharpened", "table")
+SHARED = ("diagram", "growth", "kernel_polynomial", "loops", "packings", "sharpened", "table")
 
 
 wildcard_constraints:

@@ -56,7 +56,7 @@ def new_file(path: str | Path) -> Iterator[netCDF4.Dataset]:
     try:
         with replaced(path) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
             yield file
-    except RuntimeError as error:
+    except (OSError, RuntimeError) as error:
         raise OSError(f"{path}: cannot be written; is the disk full? ({error})") from error
 
 

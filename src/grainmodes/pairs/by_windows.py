@@ -27,7 +27,8 @@ What it can miss is what LAPACK can: two eigenvalues that have just met, λ_i < 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -46,6 +47,9 @@ FEW = 20
 
 WIDER = 2.4
 """Vectors of Arnoldi's method for every eigenvalue that is wanted."""
+
+RESTARTS = 100
+"""Of Arnoldi's method: few are usual, and a disc that needs more is not worth them."""
 
 STEP = 0.8
 """Where the next disc stands, in radii above this one."""
@@ -124,11 +128,11 @@ def _above(
 ) -> list[Disc]:
     """Pairs with their conjugates that stand above discs, until their number is right."""
     found, missing = [], matrix.shape[0] - null.shape[1] - len(known)
-    for stride in (2**layer for layer in range(len(discs).bit_length())):
-        for disc in discs[::stride]:
-            if missing <= 0 or stride * disc.radius > 2.0 * _tallest(matrix):
-                break
-            high = _disc(matrix, null, complex(disc.shift, stride * disc.radius))
+    for shift in _shifts_above(discs, 2.0 * _tallest(matrix)):
+        if missing <= 0:
+            break
+        with suppress(ArithmeticError):  # what it would have found is missing in the number
+            high = _disc(matrix, null, shift)
             apart = np.abs(high.value[:, None] - known).min(axis=1) > SAME * _scale(matrix)
             new = high.among(np.flatnonzero(apart & (high.value.imag > 0.0)))
             known = np.concatenate([known, new.value])
@@ -136,6 +140,14 @@ def _above(
             found.append(new._replace(value=both, right=np.hstack([new.right, new.right.conj()])))
             missing -= len(both)
     return found
+
+
+def _shifts_above(discs: list[Disc], most: float) -> Iterator[complex]:
+    """σ + iρ of every disc, σ + 2iρ of every second, … up to a height."""
+    for stride in (2**layer for layer in range(len(discs).bit_length())):
+        for disc in discs[::stride]:
+            if stride * disc.radius <= most:
+                yield complex(disc.shift, stride * disc.radius)
 
 
 def _disc(matrix: sparse.csr_array, null: np.ndarray, shift: complex) -> Disc:
@@ -164,7 +176,7 @@ def _nearest(
         (size, size), lambda x: without_null(factors.solve(x)), dtype=start.dtype
     )
     try:
-        value, vectors = eigs(inverse, count, v0=start, ncv=int(width), tol=1e-13)
+        value, vectors = eigs(inverse, count, v0=start, ncv=int(width), tol=1e-13, maxiter=RESTARTS)
     except RuntimeError as error:
         raise ArithmeticError(f"no eigenvalues near {shift:.6g}: {error}") from error
     return shift + 1.0 / value, vectors

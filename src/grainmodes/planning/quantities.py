@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 FEW = 20
 """Modes below which a bin is not planned."""
 
+UNSURE = 1 / 3
+"""Relative error of a pilot beyond which its mean, hence the number of seeds, is hardly known."""
+
 Point = tuple[int, float, float]
 """n, phi, k_T."""
 
@@ -41,6 +44,11 @@ class Plan(NamedTuple):
     samples: int
     need: Need
     place: tuple[float, float] | None = None
+
+    @property
+    def unsure(self) -> bool:
+        """Whether the pilot hardly knows the mean."""
+        return bool(self.need.error > UNSURE)
 
 
 class Left(NamedTuple):
@@ -66,7 +74,14 @@ def planned(ensemble: xr.Dataset, point: Point, target: float) -> list[Plan | Le
         return [Left("no converged seed is jammed: means are 0 and have no relative error")]
     moduli = _rigidity(of, target) if "g" in ensemble else [Left("the ensemble holds no g")]
     densities = _density(ensemble, point, target) if spectral else [Left("it holds no spectra")]
-    return [*moduli, *densities]
+    found = [*moduli, *densities]
+    return [*found, *(_unsure(of) for of in found if isinstance(of, Plan) and of.unsure)]
+
+
+def _unsure(of: Plan) -> Left:
+    return Left(
+        f"{of.quantity}: the pilot knows its mean to {of.need.error:.0%} only, its seeds less"
+    )
 
 
 def _rigidity(of: xr.Dataset, target: float) -> list[Plan | Left]:

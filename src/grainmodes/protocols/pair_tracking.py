@@ -17,24 +17,13 @@ The first ones are located (`exceptional_points`), which replaces this word by a
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
 from grainmodes.packing import Packing
-from grainmodes.pairs.by_windows import pairs_by_windows
-from grainmodes.pairs.carried import Carried
-from grainmodes.pairs.definition import (
-    Loaded,
-    Pairs,
-    dense_pairs,
-    mass_weighted,
-    on_all_grains,
-    translations,
-)
-from grainmodes.pairs.following import Planes, matched
-from grainmodes.pairs.plane import plane_of
+from grainmodes.pairs.definition import Loaded, translations
+from grainmodes.pairs.following import matched
 from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.exceptional_points import (
@@ -47,78 +36,10 @@ from grainmodes.protocols.exceptional_points import (
     Side,
     located,
 )
+from grainmodes.protocols.pair_detection import DETECTORS, Detector, Seen, seen_by
 from grainmodes.protocols.quasistatic import first_balance, step_to
 from grainmodes.protocols.sheared_state import network_changes
 from grainmodes.relaxation.balance import Balance
-
-
-class Detector(Protocol):
-    """Finds the complex pairs of one matrix after the other."""
-
-    dense: bool
-    """Whether LAPACK solved the last one."""
-
-    def find(self, loaded: Loaded) -> Pairs:
-        """Every complex pair of K on the grains that carry load."""
-
-
-class ByLapack:
-    """The definition: every matrix solved anew."""
-
-    dense = True
-
-    def find(self, loaded: Loaded) -> Pairs:
-        """Every complex pair of K."""
-        return dense_pairs(loaded.matrix)
-
-
-class ByWindows:
-    """Every matrix solved anew, in windows: for states too large for LAPACK."""
-
-    dense = False
-
-    def find(self, loaded: Loaded) -> Pairs:
-        """Every complex pair of K.
-
-        Raises:
-            ArithmeticError: an iteration did not converge, or the eigenvalues do not add up.
-        """
-        return pairs_by_windows(loaded.matrix, loaded.null)
-
-
-DETECTORS: dict[str, type[Detector]] = {
-    "carried": Carried,
-    "dense": ByLapack,
-    "windows": ByWindows,
-}
-"""How pairs are found, by the name of the choice."""
-
-
-@dataclass(frozen=True, eq=False)
-class Seen:
-    """A state with its pairs, their vectors on all grains."""
-
-    balance: Balance
-    pairs: Pairs
-
-    @cached_property
-    def planes(self) -> Planes:
-        """The planes of the pairs."""
-        return Planes.of(self.pairs)
-
-    @property
-    def strain(self) -> float:
-        """γ."""
-        return self.balance.packing.strain
-
-    def side(self, place: int) -> Side:
-        """The state with the plane of one of its pairs."""
-        held = np.repeat(self.balance.held, 3)
-        right, left = (
-            np.stack([of[held, place].real, of[held, place].imag], axis=1)
-            for of in (self.pairs.right, self.pairs.left)
-        )
-        return Side(self.balance, plane_of(mass_weighted(self.balance), right, left))
 
 
 @dataclass
@@ -192,7 +113,7 @@ class PairWalk:
         balance = first_balance(packing, interaction, choices)
         detector, other = (DETECTORS[asked.detection]() for _ in range(2))
         of_jacobian = other if asked.jacobian else None
-        walk = cls(_seen(balance, detector), choices, asked, detector, of_jacobian)
+        walk = cls(seen_by(detector, balance), choices, asked, detector, of_jacobian)
         walk.lives = [Life((np.nan, balance.packing.strain), NEVER) for _ in walk.now.pairs.value]
         walk.alive = list(range(len(walk.lives)))
         walk._count()
@@ -211,7 +132,7 @@ class PairWalk:
         """
         strain = len(self.counts) * self.choices.step
         balance, jumped = step_to(strain, self.now.balance, self.choices)
-        before, self.now = self.now, _seen(balance, self.detector)
+        before, self.now = self.now, seen_by(self.detector, balance)
         self._follow(before, jumped)
         self._count()
 
@@ -254,7 +175,7 @@ class PairWalk:
 
     def _count(self) -> None:
         """Record the state."""
-        self.states.append(self.now.balance)
+        self.states.append(self.now.balance.bare())
         pairs = self.now.pairs
         growth = pairs.growth
         for life, rate in zip(self.alive, growth.tolist(), strict=True):
@@ -276,10 +197,3 @@ class PairWalk:
             of_jacobian = len(self.of_jacobian.find(loaded).value)
         pairs, dense = len(self.now.pairs.value), self.detector.dense
         return Count(self.now.strain, pairs, of_jacobian, fastest, condition, dense)
-
-
-def _seen(balance: Balance, detector: Detector) -> Seen:
-    null = translations(balance.backbone.mass)
-    found = detector.find(Loaded(mass_weighted(balance), null, balance.held))
-    right, left = (on_all_grains(of, balance.held) for of in (found.right, found.left))
-    return Seen(balance, Pairs(found.value, right, left))

@@ -87,6 +87,10 @@ class Balance:
         """Pickled as its packing: factors are made again, and are the same."""
         return Balance.of, (self.packing, self.interaction)
 
+    def bare(self) -> Balance:
+        """The same state without factors, its own or others': of many states in memory."""
+        return replace(self, inherited=None, like=None)
+
     def heir_of(self, before: Balance) -> Balance:
         """The same state with the factors of an earlier one, if it is of the same grains."""
         inherited = before.handed_on

@@ -70,7 +70,7 @@ def asked(monkeypatch):
         work, n, _ = arguments
         calls.append((work, n))
         units = 40.0 if work.startswith("count") else 1.0
-        return Timed(2.0 * (n / 1024) ** 3, units, 150.0 + n / 100)
+        return Timed(2.0 * (n / 1024) ** 3, units, 150.0 + n / 50)
 
     monkeypatch.setattr(growth, "apart", apart)
     monkeypatch.setattr(growth, "find_spec", lambda name: None)
@@ -105,7 +105,8 @@ def test_rows_of_another_machine_are_refused(asked, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("seconds", "next_one"), [([], 0.0), ([3.0], 3.0), ([1.0, 3.0], 9.0), ([4.0, 2.0], 2.0)]
+    ("seconds", "next_one"),
+    [([], 0.0), ([3.0], 3.0), ([1.0, 3.0], 9.0), ([4.0, 2.0], 2.0), ([0.01, 1.0], 8.0)],
 )
 def test_the_next_size_is_foreseen(seconds, next_one):
     assert growth.expected(seconds) == next_one
@@ -124,7 +125,7 @@ def test_the_table_of_costs_holds_what_was_measured(rows, tmp_path):
     assert table.machine == "a machine"
     law = table.laws["rigidity"]
     assert (law.seconds, law.exponent, law.up_to) == (2.0, 3.0, 2048)
-    assert (law.megabytes, law.memory_exponent) == pytest.approx((10.24, 1.0), rel=0.01)
+    assert (law.megabytes, law.memory_exponent) == pytest.approx((20.48, 1.0), rel=0.01)
     assert table.laws["count_superlu"].seconds == 0.05
     assert table.laws["count_pardiso"] == TABLE.laws["count_pardiso"]
     assert table.job == {"seconds": 0.5, "megabytes": 150}
@@ -136,6 +137,13 @@ def test_exponents_are_those_of_a_whole_sample(rows):
     assert (time.c, time.p) == pytest.approx((2.0 * 160 / 40, 3.0))
     assert memory.p == pytest.approx(1.0, abs=0.01)
     assert "| rigidity | 256 to 2048 | 3.00 ± 0.00 |" in growth_laws.exponents(rows)
+
+
+def test_memory_that_cannot_be_told_is_not_fitted(rows):
+    few = growth_laws.per_sample(rows).query("work == 'rigidity'")
+    assert few["n"][few["megabytes"].notna()].tolist() == [256, 512, 1024, 2048]
+    short = rows[(rows["work"] == "bare") | (rows["n"] < 512)]
+    assert growth_laws.spoken(growth_laws.laws(short)["rigidity"][1]) == "–"
 
 
 def test_every_work_has_its_place_in_the_figure(rows, tmp_path):

@@ -1,0 +1,194 @@
+"""NaN in a number of one sample at every stage, and a disk that fills up during a write.
+
+The other sample of the block must not notice: its row stays the same to the last bit.
+"""
+
+import subprocess
+import sys
+from dataclasses import replace
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from grainmodes import blocks
+from grainmodes.close_up_blocks import close_up_block
+from grainmodes.dataset.files import Block, BlockError, read_block
+from grainmodes.field_blocks import fields_block
+from grainmodes.forces import largest, net_force
+from grainmodes.kernels.laws import Hertz
+from grainmodes.packing import find_contacts
+from grainmodes.pair_blocks import pairs_block
+from grainmodes.parameters.compression import Compression
+from grainmodes.parameters.law import ContactLaw, Rattlers
+from grainmodes.parameters.pairs import PairChoices
+from grainmodes.parameters.protocol import Protocol
+from grainmodes.parameters.release import Release
+from grainmodes.parameters.spectra import SpectrumChoices
+from grainmodes.parameters.strain import Shear, StepStrain
+from grainmodes.probes import probes_block
+from grainmodes.release_blocks import release_block
+from grainmodes.rows import block_of
+from grainmodes.samples import packed
+from grainmodes.shear_blocks import shear_block
+from grainmodes.spectrum_blocks import hessian_block, rattlers_block, spectrum_block
+from grainmodes.variant_blocks import variants_block
+from released import pairs_block as unstable_states
+from released import state
+from specimens import MINIMAL, elastic, reference
+
+WEAK, SLIPPING = ContactLaw(kt=1e-2), ContactLaw("hertz", "smoothed_coulomb", 2 / 7, 10.0)
+COARSE, SHEAR = Compression(phi_step=1e-2), Shear(2e-3, 1e-3, 1e-4)
+SHORT = Release(duration=0.01, records=60, dampings=(), spectra=0)
+MODES = SpectrumChoices()
+
+
+@cache
+def packings() -> Block:
+    rows = [packed(reference(MINIMAL[0])[1], Hertz(1.0)) | {"converged": True} for _ in range(2)]
+    return block_of(range(2), rows.__getitem__, {}, {"n": 16, "phi": 0.9, "stage": "packings"})
+
+
+@cache
+def checkpoints() -> Block:
+    return blocks.compress_block(16, range(2), 0.7, COARSE, "hertz", None)
+
+
+@cache
+def unstable() -> Block:
+    """Two samples that met the same unstable state."""
+    block = unstable_states()
+    rows = {name: array[[0, 0]] for name, array in block.variables.items()}
+    return Block(rows | {"seed": np.arange(2)}, block.attributes)
+
+
+class Stage(NamedTuple):
+    """What a stage starts from, its function, and the names of the numbers that it needs."""
+
+    start: object
+    made: object
+    needed: tuple[str, ...]
+
+
+GRAINS = ("diameter", "mass", "box_length", "strain")
+STATE = (
+    "unstable_strain",
+    "unstable_rotation",
+    "unstable_slip",
+    "unstable_eigenvalue_real",
+    "unstable_eigenvalue_imag",
+    "unstable_mode_real",
+    "unstable_mode_imag",
+)
+
+
+def of_packings(made) -> Stage:
+    return Stage(packings, made, GRAINS)
+
+
+STAGES = {
+    "compress": Stage(
+        checkpoints,
+        lambda of: blocks.compress_block(16, range(2), 0.71, COARSE, "hertz", of),
+        (*GRAINS, "phi_jamming"),
+    ),
+    "pack": Stage(
+        checkpoints,
+        lambda of: blocks.packing_block(of, 0.71, COARSE, "hertz"),
+        (*GRAINS, "phi_jamming"),
+    ),
+    "rigidity": of_packings(lambda of: blocks.rigidity_block(of, WEAK, Rattlers())),
+    "step strain": of_packings(lambda of: blocks.step_strain_block(of, WEAK, StepStrain())),
+    "spectrum": of_packings(lambda of: spectrum_block(of, WEAK, Rattlers(), "modes", MODES)),
+    "rattlers": of_packings(lambda of: rattlers_block(of, WEAK, "modes", MODES)),
+    "hessian": of_packings(lambda of: hessian_block(of, WEAK, Rattlers(), MODES)),
+    "probes": of_packings(lambda of: probes_block(of, ContactLaw(), Protocol())),
+    "fields": of_packings(lambda of: fields_block(of, WEAK, Rattlers(), StepStrain(), (0.5,))),
+    "close-up": of_packings(lambda of: close_up_block(of, WEAK, SHEAR)),
+    "shear": of_packings(lambda of: shear_block(of, WEAK, SHEAR)),
+    "pairs": of_packings(lambda of: pairs_block(of, SLIPPING, SHEAR, PairChoices())),
+    "variants": of_packings(lambda of: variants_block(of, SLIPPING, SHEAR)),
+    "release": Stage(
+        unstable, lambda of: release_block(of, state()[1], SHORT), (*GRAINS[:3], *STATE)
+    ),
+}
+"""Every stage that computes."""
+
+
+@cache
+def sound(stage: str) -> Block:
+    return STAGES[stage].made(STAGES[stage].start())
+
+
+def infected(block: Block, name: str) -> Block:
+    """The block with one number of its first sample not a number."""
+    array = block.variables[name].copy()
+    array[(0,) * array.ndim] = np.nan
+    return Block(block.variables | {name: array}, block.attributes)
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_what_is_no_number_fails_its_sample_and_no_other(stage):
+    start, expected = STAGES[stage].start(), sound(stage)
+    assert expected.variables["converged"].all() and expected.attributes["failures"] == {}
+    for name in STAGES[stage].needed:
+        found = STAGES[stage].made(infected(start, name))
+        assert found.variables["converged"][0] == 0, name
+        assert "nan" in found.attributes["failures"]["0"], name
+        for each, array in found.variables.items():
+            np.testing.assert_array_equal(array[1:], expected.variables[each][1:], err_msg=name)
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_numbers_that_a_stage_does_not_need_may_be_none(stage):
+    start, expected = STAGES[stage].start(), sound(stage)
+    others = set(start.variables) - set(STAGES[stage].needed)
+    numbers = [name for name in sorted(others) if start.variables[name].dtype.kind == "f"]
+    for name in numbers:
+        found = STAGES[stage].made(infected(start, name))
+        for each, array in expected.variables.items():
+            np.testing.assert_array_equal(found.variables[each], array, err_msg=name)
+
+
+@pytest.mark.parametrize("name", ["box_length", "strain"])
+def test_a_packing_without_a_number_looks_unjammed(name):
+    """Nothing compares with NaN: no contact, no force, max|F| = 0 < F_Th, and so g = 0."""
+    packing = replace(reference(MINIMAL[0])[1], **{name: np.nan})
+    contacts = find_contacts(packing)
+    assert len(contacts.i) == 0
+    assert largest(net_force(packing, contacts, elastic("hertz", 1.0))) == (0.0, 0.0)
+    with pytest.raises(ValueError, match=f"{name} = nan"):
+        packing.checked()
+
+
+COMMAND = """
+import resource, signal, sys
+import netCDF4
+from grainmodes.cli import main
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[1]),) * 2)
+try:
+    with netCDF4.Dataset(sys.argv[2], "w") as file:
+        file.createDimension("seed", 10_000)
+        file.createVariable("g", "f8", ("seed",))[:] = 1.0
+except (OSError, RuntimeError):
+    pass
+sys.exit(main(sys.argv[3:]))
+"""
+
+
+@pytest.mark.parametrize("room", [0, 10_000])
+def test_a_full_disk_is_told_in_one_line_and_leaves_the_old_file(tmp_path, room):
+    """A limit on the size of files stands in for the disk; netCDF says `Permission denied` at 0."""
+    output, naive = tmp_path / "block.nc", tmp_path / "naive.nc"
+    output.write_text("the old one")
+    words = f"{room} {naive} compress --n 16 --phi 0.8 --seeds 0-1 -o {output}".split()
+    run = subprocess.run([sys.executable, "-c", COMMAND, *words], capture_output=True, text=True)
+    assert run.returncode == 1
+    assert run.stderr.count("\n") == 1
+    assert f"{output}: cannot be written; is the disk full?" in run.stderr
+    assert output.read_text() == "the old one"
+    assert set(tmp_path.iterdir()) == {output, naive}
+    with pytest.raises(BlockError):
+        read_block(naive)

@@ -1,0 +1,92 @@
+"""N = 2, 4, 10, a negative g, and packings that take ten times the usual iterations."""
+
+import re
+from dataclasses import asdict, replace
+
+import numpy as np
+import pytest
+
+import hard
+from grainmodes.blocks import compress_block, packing_block
+from grainmodes.dataset.files import Block
+from grainmodes.kernels.laws import Hertz
+from grainmodes.packing import Packing, PackingError, find_contacts
+from grainmodes.parameters.compression import Compression
+from grainmodes.parameters.strain import Shear, StepStrain
+from grainmodes.protocols.compression import advanced, balanced, placed
+from grainmodes.protocols.shear import Walk
+from grainmodes.protocols.step_strain import step_strain
+from grainmodes.relaxation.balance import Balance
+from grainmodes.rigidity import rigidity
+from specimens import elastic, pairs_of, quenched
+
+COARSE = Compression(phi_step=1e-3)
+
+
+@pytest.mark.parametrize("n", [2, 4])
+def test_a_box_that_holds_a_grain_twice_is_refused(n):
+    """A square lattice of spacing 0.95: every grain touches both images of its neighbour."""
+    sites, side = np.array([[0.0, 0.0], [0.5, 0.0], [0.0, 0.5], [0.5, 0.5]])[:n], 1.9
+    lattice = Packing.from_positions(2.1 * sites, np.ones(n), 2.1)
+    small = replace(lattice, box_length=side)
+    assert 2 * len(hard.nearest_image(small)) == len(pairs_of(small))
+    with pytest.raises(PackingError, match="meets two images of another"):
+        Packing.from_positions(side * sites, np.ones(n), side)
+    with pytest.raises(PackingError, match="meets two images of another"):
+        lattice.at(small.phi)
+
+
+@pytest.mark.parametrize("n", [2, 4])
+def test_too_few_grains_are_failed_samples(n):
+    block = compress_block(n, range(2), 0.7, COARSE, "hertz", None)
+    assert not block.variables["converged"].any()
+    assert all("two images" in text for text in block.attributes["failures"].values())
+
+
+@pytest.mark.parametrize("strain", [0.0, 0.5, -0.5])
+def test_ten_grains_fit_at_every_strain(strain):
+    """N = 10 of C: the box is 2.57 d wide, and at γ = 1/2 it has to be 2.24 d."""
+    packing = quenched(10, 0.9)
+    sheared = packing.sheared(strain)
+    contacts = find_contacts(sheared)
+    assert list(zip(contacts.i, contacts.j, strict=True)) == [(p.i, p.j) for p in pairs_of(sheared)]
+    with pytest.raises(PackingError, match="meets two images"):
+        packing.sheared(0.9)
+    law = elastic("hertz", 1e-2)
+    simulated = step_strain(packing, law, StepStrain())
+    assert rigidity(packing, law).unloaded.g == pytest.approx(simulated.g, rel=1e-6)
+
+
+def test_a_stable_packing_may_have_a_negative_g():
+    """σ then falls without an event: a rule that takes each fall for one finds one a step."""
+    packing, law = quenched(64, 0.845), elastic("hertz", 1e-8)
+    g = rigidity(packing, law).unloaded.g
+    assert g < -1e-4 and not Balance.of(packing, law).unstable
+    assert g == pytest.approx(step_strain(packing, law, StepStrain()).g, rel=1e-6)
+    walk = Walk.start(packing, law, Shear(strain=3e-6, step=1e-6, smallest_step=1e-8))
+    while not walk.done:
+        walk.advance()
+    sigma = [point.stress[0, 1] + point.stress[1, 0] for point in walk.curve]
+    assert np.all(np.diff(sigma) < 0.0)
+    assert walk.events == []
+
+
+def test_a_seed_that_needs_ten_times_the_usual_iterations():
+    """Sixteen grains at φ = 0.84, where half of the samples are jammed: 4207 beside 72."""
+    law = Hertz(1.0)
+
+    def iterations(seed: int) -> int:
+        start = advanced(placed(16, seed, law, COARSE), 0.84, law, COARSE)
+        relaxed = balanced(start, 0.84, law, COARSE)
+        assert relaxed.converged and relaxed.max_force < 1e-14
+        return relaxed.iterations - start.iterations
+
+    usual = int(np.median([iterations(seed) for seed in range(9)]))
+    assert iterations(21) > 10 * usual
+    hasty = replace(COARSE, max_iterations=10 * usual)
+    start = compress_block(16, range(20, 23), 0.84, COARSE, "hertz", None)
+    config = start.attributes["config"] | {"compression": asdict(hasty)}
+    begun = Block(start.variables, start.attributes | {"config": config})
+    block = packing_block(begun, 0.84, hasty, "hertz")
+    assert block.variables["converged"].tolist() == [1, 0, 1]
+    assert re.search(r"max\|F\| = .* iterations", block.attributes["failures"]["21"])
