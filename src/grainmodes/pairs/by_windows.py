@@ -48,7 +48,7 @@ FEW = 20
 WIDER = 2.4
 """Vectors of Arnoldi's method for every eigenvalue that is wanted."""
 
-RESTARTS = 100
+RESTARTS = 30
 """Of Arnoldi's method: few are usual, and a disc that needs more is not worth them."""
 
 STEP = 0.8
