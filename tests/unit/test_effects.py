@@ -50,7 +50,8 @@ def refuse(monkeypatch, *places) -> None:
 def arrays_of(kernel) -> set[str]:
     """Names of the arrays in the compiled code of a kernel, whatever types it was compiled for."""
     code = "".join(str(each.type_annotation) for each in kernel.overloads.values())
-    return set(re.findall(r"#\s+(\w+)(?:\.\d+)? = .* :: array\(", code))
+    made_or_passed = r"#\s+(\w+)(?:\.\d+)? = .* :: (?:\(.*\) -> )?array\("
+    return set(re.findall(made_or_passed, code))
 
 
 def test_fire_holds_no_rotation_torque_or_history():
