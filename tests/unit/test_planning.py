@@ -123,11 +123,13 @@ def test_bins_with_few_modes_are_named(tmp_path):
         ({"packings": {"jammed": np.zeros(8, np.int8)}}, "no converged seed is jammed"),
         ({"rigidity": {"g": np.array([1.0, -1.0] * 4)}}, "G: the mean is 0"),
         ({"rigidity": {"g": np.array([1.0, *[np.nan] * 7])}}, "G: the spread .* here is 1"),
+        ({"rigidity": {"g": np.full(8, np.nan)}}, "G: the spread .* here is 0"),
         ({"spectrum_bins": {"bin_count": np.zeros((8, 50))}}, "D: no bin of two samples"),
         ({"stages": STAGES[:2]}, "holds no spectra"),
         ({"stages": (STAGES[0], STAGES[2])}, "holds no g"),
     ],
 )
+@pytest.mark.filterwarnings("error")
 def test_what_cannot_be_planned_is_said(tmp_path, changes, words):
     _, left = plans(pilot(tmp_path, **changes))
     assert any(re.search(words, sentence) for sentence in left)

@@ -52,9 +52,10 @@ def needed(values: np.ndarray, target: float) -> Need:
     Raises:
         ValueError: there are fewer than two rows, or a mean is 0.
     """
-    size, mean = len(values), np.mean(values, axis=0)
+    size = len(values)
     if size < LEAST:
         raise ValueError(f"the spread over seeds needs {LEAST} converged ones, here is {size}")
+    mean = np.mean(values, axis=0)
     if np.any(mean == 0.0):
         raise ValueError("the mean is 0 and has no relative error")
     relative = np.var(values, axis=0, ddof=1) / mean**2
