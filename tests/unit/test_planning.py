@@ -110,7 +110,8 @@ def test_bins_with_few_modes_are_named(tmp_path):
     count = np.full((8, len(edges) - 1), 100)
     count[:, [3, 4, 7]] = 0
     count[0, [3, 4]], count[0, 7] = FEW - 1, FEW - 1
-    count[1, 8] = FEW
+    count[:, 8] = [FEW // 8, FEW // 8 + 1] * 4
+    assert count[:, 8].sum() == FEW
     _, (sentence,) = plans(pilot(tmp_path, spectrum_bins={"bin_count": count}))
     ranges = [f"{edges[a]:.3g}–{edges[b]:.3g}" for a, b in ((3, 5), (7, 8))]
     assert sentence.endswith(f"fewer than {FEW} modes: omega t_0 in {', '.join(ranges)}")
@@ -171,6 +172,9 @@ def test_the_command_prints_a_row_for_every_quantity(tmp_path, capsys):
         assert "relative standard error of 2 %" in said
         rows = [line for line in said.splitlines() if line.startswith("    64     0.9")]
         assert [row[24:38].strip() for row in rows] == ["G", "D, median bin", "D, worst bin"]
+        seeds, hours = (float(rows[0][place]) for place in (slice(52, 62), slice(84, 93)))
+        seconds = seconds_per_seed((64, 0.9, 1.0), "none", Protocol(), read_table())
+        assert hours == pytest.approx(seeds * seconds / 3600, rel=0.01)
         assert "n = 64, phi = 0.83, k_T = 1: no converged seed is jammed" in said
 
 
