@@ -120,11 +120,12 @@ class SuperLU:
         upper = self._factors.U
         if not np.abs(upper.data).max(initial=0.0) < GROWTH * np.abs(values).max(initial=1.0):
             raise ZeroPivotError("a pivot of the factorisation is too small")
-        return int(np.count_nonzero(upper.diagonal() < 0.0))
+        return int(np.count_nonzero(upper.diagonal().real < 0.0))
 
-    def solve(self, right: np.ndarray) -> np.ndarray:
+    def solve(self, right: np.ndarray, of: str = "N") -> np.ndarray:
+        """As `Factorisation.solve`; of the transposed matrix with `of` "T"."""
         answer = np.empty_like(right)
-        answer[self._order] = self._factors.solve(right[self._order])
+        answer[self._order] = self._factors.solve(right[self._order], of)
         return answer
 
 

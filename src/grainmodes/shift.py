@@ -41,7 +41,7 @@ class SymmetricShift:
     def __init__(
         self, matrix: sparse.csc_array, backend: str = "auto", null: np.ndarray | None = None
     ):
-        self._matrix = _with_diagonal(matrix)
+        self._matrix = with_diagonal(matrix)
         self._row = self._matrix.indices
         self._column = np.repeat(np.arange(self.size), np.diff(self._matrix.indptr))
         self._on_diagonal = np.flatnonzero(self._row == self._column)
@@ -85,7 +85,7 @@ class SymmetricShift:
         return scale * self._factors.solve(scale * right)
 
 
-def _with_diagonal(matrix: sparse.csc_array) -> sparse.csc_array:
+def with_diagonal(matrix: sparse.sparray) -> sparse.csc_array:
     """The matrix with a place for every diagonal entry, also where its row is empty."""
     entries, every = matrix.tocoo(), np.arange(matrix.shape[0])
     row, column = (np.concatenate([place, every]) for place in (entries.row, entries.col))

@@ -108,6 +108,11 @@ def selected(value: np.ndarray, right: np.ndarray, left: np.ndarray) -> Pairs:
     return Pairs(value[upper], right, left[:, upper] / products.conj())
 
 
+def quotients(matrix: sparse.csr_array, pairs: Pairs) -> Pairs:
+    """The pairs with λ = vᴴ K u, whose error is the square of that of the vectors."""
+    return pairs._replace(value=np.einsum("np,np->p", pairs.left.conj(), matrix @ pairs.right))
+
+
 def on_all_grains(vectors: np.ndarray, held: np.ndarray) -> np.ndarray:
     """Vectors (3N', P) of the grains that carry load on all N, (3N, P)."""
     whole = np.zeros((3 * len(held), vectors.shape[1]), vectors.dtype)

@@ -22,7 +22,8 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sparse
-from scipy.sparse.linalg import splu
+
+from grainmodes.pairs.shifted import Shifted
 
 MOST = 12
 """Iterations: four times what a plane needs that has turned by a tenth."""
@@ -32,9 +33,6 @@ SETTLED = 1e-12
 
 CLOSE = 1e-5
 """|λ1 − λ2|, in units of max|K|, up to which the two eigenvectors are not told apart."""
-
-NUDGE = 1e-12
-"""Relative change of a shift that happens to be an eigenvalue to the last digit."""
 
 
 class Plane(NamedTuple):
@@ -147,43 +145,33 @@ def plane_near(matrix: sparse.csr_array, start: Plane) -> Plane:
     Raises:
         ArithmeticError: the iteration broke down.
     """
-    now = plane_of(matrix, start.right, start.left)
+    now, factors = plane_of(matrix, start.right, start.left), Shifted(matrix)
     for _ in range(MOST):
         if now.residual <= SETTLED:
             break
-        now = plane_of(matrix, *_improved(matrix, now))
+        now = plane_of(matrix, *_improved(factors, now, CLOSE * np.abs(matrix.data).max()))
         if not np.isfinite(now.residual):
             raise ArithmeticError("the plane of two eigenvectors was lost")
     return now
 
 
-def _improved(matrix: sparse.csr_array, now: Plane) -> tuple[np.ndarray, np.ndarray]:
+def _improved(factors: Shifted, now: Plane, close: float) -> tuple[np.ndarray, np.ndarray]:
     """Vectors (M, 2) on both sides after one step of inverse iteration."""
-    if np.sqrt(abs(now.discriminant)) <= CLOSE * np.abs(matrix.data).max():
-        factors = _shifted(matrix, 0.5 * now.sum)
-        return factors.solve(now.right), factors.solve(now.left, trans="T")
+    if np.sqrt(abs(now.discriminant)) <= close:
+        factors.to(0.5 * now.sum)
+        return factors.solve(now.right), factors.solve_transposed(now.left)
     pair = now.is_pair
     values = now.values[:1] if pair else now.values.real
     rights = now.right @ _kernels(now.block, values)
     lefts = now.left @ _kernels(now.block.T, values)
     right, left = [], []
     for place, value in enumerate(values):
-        factors = _shifted(matrix, value)
+        factors.to(value)
         right.append(factors.solve(rights[:, place]))
-        left.append(factors.solve(lefts[:, place], trans="T"))
+        left.append(factors.solve_transposed(lefts[:, place]))
     if pair:
         right, left = ([of[0].real, of[0].imag] for of in (right, left))
     return np.stack(right, axis=1), np.stack(left, axis=1)
-
-
-def _shifted(matrix: sparse.csr_array, shift: complex):
-    """The factors of K − σ, real for a real σ."""
-    one = sparse.eye_array(matrix.shape[0], format="csc")
-    try:
-        return splu((matrix - shift * one).tocsc(), permc_spec="MMD_AT_PLUS_A")
-    except RuntimeError:
-        nudged = shift * (1.0 + NUDGE)
-        return splu((matrix - nudged * one).tocsc(), permc_spec="MMD_AT_PLUS_A")
 
 
 def _kernels(block: np.ndarray, values: np.ndarray) -> np.ndarray:

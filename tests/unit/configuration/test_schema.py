@@ -7,8 +7,14 @@ from jsonschema import Draft202012Validator
 
 from grainmodes.configuration import read_scene
 from grainmodes.configuration.schema import complete, schema
+from grainmodes.parameters.compression import RELAXATIONS
+from grainmodes.parameters.factors import FACTORISATIONS
 from grainmodes.parameters.figures import FIGURES
+from grainmodes.parameters.law import NORMAL_LAWS, TANGENTIAL_LAWS
+from grainmodes.parameters.pairs import DETECTIONS
 from grainmodes.parameters.protocol import Protocol
+from grainmodes.parameters.spectra import SPECTRA, SPECTRUM_METHODS
+from grainmodes.parameters.strain import LOWEST_EIGENVALUES, STRAIN_RELAXATIONS
 from scenes import CONFIG, GRID, scene_with
 
 
@@ -57,6 +63,24 @@ def test_every_key_stands_in_the_handbook(key):
 
 def test_defaults_are_those_of_the_protocol():
     assert scene_with().protocol == Protocol()
+
+
+CHOICES = {
+    DETECTIONS,
+    FACTORISATIONS,
+    LOWEST_EIGENVALUES,
+    NORMAL_LAWS,
+    RELAXATIONS,
+    SPECTRA,
+    SPECTRUM_METHODS,
+    STRAIN_RELAXATIONS,
+    TANGENTIAL_LAWS,
+}
+
+
+@pytest.mark.parametrize("names", sorted(CHOICES))
+def test_choices_by_name_are_those_of_the_code(names):
+    assert names in {tuple(rule["enum"]) for _, rule in leaves(schema()) if "enum" in rule}
 
 
 def test_completing_leaves_the_configuration_alone():
