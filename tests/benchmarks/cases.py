@@ -28,7 +28,9 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.compression import advanced, balanced, placed
+from grainmodes.protocols.pair_detection import DETECTORS, seen_by
 from grainmodes.protocols.pair_tracking import PairWalk
+from grainmodes.protocols.quasistatic import first_balance, step_to
 from grainmodes.protocols.shear import Walk
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
@@ -177,12 +179,20 @@ def weakly_frictional(n: int):
     return problem(balanced_at(n, 0.9), interaction(ContactLaw(kt=1e-4)))
 
 
+GRAINS_OF_C = interaction(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, 10.0))
+SHEAR_OF_C = Shear(0.02, force_tolerance=5e-14)
+
+
+def packing_of_c(n: int):
+    """A frictionless packing of C's grains at φ = 0.90, in balance."""
+    return replace(balanced_at(n, 0.9), mass=np.ones(n))
+
+
 def pairs_along(n: int, detection: str, strain: float = 0.02) -> float:
     """Complex pairs of every state of a shear in steps of 1e-4, C's grains and law, μ = 10."""
-    rule = interaction(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, 10.0))
-    packing = replace(balanced_at(n, 0.9), mass=np.ones(n))
-    choices = Shear(strain, force_tolerance=5e-14)
-    walk = PairWalk.start(packing, rule, choices, PairChoices(detection, located=0))
+    choices = replace(SHEAR_OF_C, strain=strain)
+    asked = PairChoices(detection, located=0)
+    walk = PairWalk.start(packing_of_c(n), GRAINS_OF_C, choices, asked)
 
     def along():
         while not walk.done:
@@ -199,6 +209,24 @@ def pairs_carried(n: int) -> float:
 def pairs_by_lapack(n: int) -> float:
     """By a dense general eigensolve at every state."""
     return pairs_along(n, "dense")
+
+
+def pairs_by_windows(n: int) -> float:
+    """Every complex pair at γ = 0.01, disc by disc."""
+    return pairs_of_one_state(n, "windows")
+
+
+def pairs_of_one_by_lapack(n: int) -> float:
+    """The same by a dense general eigensolve."""
+    return pairs_of_one_state(n, "dense")
+
+
+def pairs_of_one_state(n: int, detection: str) -> float:
+    """Complex pairs of one state of the shear alone."""
+    now = first_balance(packing_of_c(n), GRAINS_OF_C, SHEAR_OF_C)
+    for step in range(1, 101):
+        now, _ = step_to(step * SHEAR_OF_C.step, now, SHEAR_OF_C)
+    return cpu(seen_by, DETECTORS[detection](), now)
 
 
 HARMONIC = interaction(ContactLaw("harmonic", "elastic", 1.0))

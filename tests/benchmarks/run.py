@@ -51,6 +51,9 @@ CASES = (
     ("a step of shear", "shear_step", 4096, np.inf, "ms"),
     ("complex pairs of 200 states to 0.02", "pairs_carried", 500, np.inf, "s"),
     ("the same, each state by LAPACK", "pairs_by_lapack", 500, np.inf, "s"),
+    ("complex pairs of one state, disc by disc", "pairs_by_windows", 1000, np.inf, "s"),
+    ("the same by LAPACK", "pairs_of_one_by_lapack", 1000, np.inf, "s"),
+    ("complex pairs of one state, disc by disc", "pairs_by_windows", 4096, np.inf, "s"),
     ("start-up of a sample job", "start_up", 16, 1.0, "s"),
 )
 
