@@ -20,8 +20,11 @@ import scipy.sparse as sparse
 from grainmodes.factorisation import SuperLU, ZeroPivotError
 from grainmodes.shift import NUDGES, with_diagonal
 
-ROUGH = 1e-11
-"""max|(K − σ) x − b| over max|K| max|x|, above which a solution is refined."""
+ROUGH = 1e-12
+"""max|(K − σ) x − b| over max|K| max|x|, above which a solution is refined.
+
+Two eigenvalues that have just met are known to its root, λ_i to 1e-6; at 1e-14, where nearly every
+solution is refined, all takes 30 % longer."""
 
 
 class Shifted:
