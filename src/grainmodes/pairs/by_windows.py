@@ -15,8 +15,8 @@ the discs a few pairs are missing. Discs above the axis look for them, at the cu
 of `TALL` times their distance, then at every third cut three times as high, and so on, which
 leaves no gap up to any height; the search ends as soon as the number is right.
 
-What it can miss are pairs that have just met: those with λ_i below 1e-6 max|K|, the root of what the
-factors are off by, may be taken for two real eigenvalues, as LAPACK takes those below 1e-8.
+What it can miss are pairs that have just met: those with λ_i below 1e-6 max|K|, the root of what
+the factors are off by, may be taken for two real eigenvalues, as LAPACK takes those below 1e-8.
 
 | symbol | name          | meaning                                  |
 | ------ | ------------- | ---------------------------------------- |
