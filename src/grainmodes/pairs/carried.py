@@ -28,16 +28,14 @@ import scipy.sparse as sparse
 
 from grainmodes.pairs.basis import Basis
 from grainmodes.pairs.definition import Loaded, Pairs, dense_eigenpairs, selected
-from grainmodes.pairs.nearly_diagonal import BROAD, NearlyDiagonal, Solved, solved
-from grainmodes.pairs.plane import Plane
-from grainmodes.pairs.sharpening import nearly_meeting, sharpened
-from grainmodes.stability import REAL
+from grainmodes.pairs.nearly_diagonal import NearlyDiagonal, Solved, solved
+from grainmodes.pairs.sharpening import sharpened
 
-ENOUGH = 0.3
+ENOUGH = 0.5
 """Largest part of an eigenvector outside its window with which a pass is believed."""
 
-SHARP = 1e-4
-"""Residual of a sharpened plane, in units of max|K|; λ is right to about its square."""
+SUM_RIGHT = 1e-3
+"""What the sum of the eigenvalues may be off by."""
 
 MOST = 4
 """Passes, after which LAPACK costs no more."""
@@ -47,6 +45,7 @@ class Carried:
     """Finds pairs by carrying the eigenvectors of the last matrix on; `dense`: LAPACK did it."""
 
     def __init__(self) -> None:
+        self.passes = 0
         self._basis: Basis | None = None
         self._held = np.zeros(0, bool)
         self.dense = True
@@ -71,41 +70,33 @@ class Carried:
 
     def _carried_on(self, matrix: sparse.csr_array) -> Pairs | None:
         """The pairs of the first pass that is believed; None where there is none."""
+        self.passes = 0
         for _ in range(MOST):
             found = self._pass(matrix)
             if found is None:
                 break
-            if found.coupling.max() < ENOUGH:
-                couples = nearly_meeting(found.values, found.coupling)
-                planes = sharpened(matrix, self._basis, found.values, couples)
-                if all(plane.residual < SHARP for plane in planes):
-                    return self._pairs(found.values, couples, planes)
+            self.passes += 1
+            c = found.coupling
+            if c.max() < ENOUGH and found.missing < SUM_RIGHT:
+                couples = sharpened(matrix, self._basis, found)
+                if couples is not None:
+                    return couples.pairs
         return None
 
     def _pass(self, matrix: sparse.csr_array) -> Solved | None:
-        """The eigenpairs of B; the basis goes on to them."""
-        vectors = self._basis.vectors.astype(float)
-        moved = matrix @ vectors
+        """The eigenpairs of B, or of B halfway to it; the basis goes on to them."""
+        vectors = self._basis.vectors
+        moved = matrix.astype(np.float32) @ vectors
         diagonal = np.einsum("nk,nk->k", vectors, moved)
-        change = self._basis.coordinates(moved - vectors * diagonal)
-        nearly = NearlyDiagonal.of(diagonal, change)
-        found = solved(nearly) or solved(nearly, BROAD)
+        change = self._basis.inverse @ (moved - vectors * diagonal)
+        nearly = NearlyDiagonal.of(diagonal.astype(float), change)
+        found = solved(nearly)
+        if found is None:
+            found = solved(nearly.halfway)
+            found = found and found._replace(missing=np.inf)
         if found is not None:
-            self._basis = Basis.of(self._basis.vectors[:, nearly.order] @ found.rows.T)
+            self._basis = Basis.of(vectors[:, nearly.order] @ found.rows.T)
         return found
-
-    def _pairs(self, values: np.ndarray, couples: np.ndarray, planes: list[Plane]) -> Pairs:
-        """The pairs among eigenvalues; where two nearly meet, those of their sharpened planes."""
-        alone = values.imag > REAL
-        alone[couples] = False
-        (at,) = np.nonzero(alone)
-        right, left = (of(at) + 1j * of(at + 1) for of in (self._basis.columns, self._basis.rows))
-        met = [plane for plane in planes if plane.is_pair]
-        return selected(
-            np.append(values[at], [plane.values[0] for plane in met]),
-            np.hstack([right, *(plane.vectors[:, :1] for plane in met)]),
-            np.hstack([left, *(plane.left_vectors[:, :1] for plane in met)]),
-        )
 
     def _anew(self, loaded: Loaded) -> Pairs:
         """By LAPACK, the vectors kept."""

@@ -12,11 +12,21 @@ on all other modes, σ = tr B / 2. The block of the new plane is then right to t
 from __future__ import annotations
 
 import numpy as np
-import scipy.linalg
 import scipy.sparse as sparse
 
 from grainmodes.pairs.basis import Basis
-from grainmodes.pairs.plane import Plane, planes_of
+from grainmodes.pairs.couples import Couples
+from grainmodes.pairs.nearly_diagonal import Solved
+from grainmodes.stability import REAL
+
+SHARP = 1e-4
+"""Residual of a sharpened plane, in units of max|K|; λ is right to about its square."""
+
+STEPS = 3
+"""Steps after which a plane that is not sharp will not become so."""
+
+MANY = 0.17
+"""Couples in doubt, a mode, from which another pass costs less."""
 
 CLOSE = 1e-4
 """|λ1 − λ2|, k_N d^(1/2)/m, within which a pass does not tell a pair from two real modes."""
@@ -49,45 +59,72 @@ def _couples(values: np.ndarray, unsure: np.ndarray) -> list[tuple[int, int]]:
     return found
 
 
-def sharpened(
-    matrix: sparse.csr_array, basis: Basis, values: np.ndarray, couples: np.ndarray
-) -> list[Plane]:
-    """The planes of couples (K, 2) of modes, one step nearer to K's."""
-    if not len(couples):
-        return []
-    right, left = (of(couples.ravel()) for of in (basis.columns, basis.rows))
-    planes = planes_of(matrix, right, left)
-    right, left = (np.hstack([getattr(p, side) for p in planes]) for side in ("right", "left"))
-    block = scipy.linalg.block_diag(*(p.block for p in planes))
-    middle = np.repeat([0.5 * p.sum for p in planes], 2)
-    others = basis.coordinates(matrix @ right - right @ block)
-    right += basis.vectors @ _divided(_without(others, couples), middle, values, basis.size)
-    others = basis.products(matrix.T @ left - left @ block.T)
-    left += basis.combined_rows(
-        _divided(_without(others, couples), middle, values.conj(), 1.0 / basis.size)
+def sharpened(matrix: sparse.csr_array, basis: Basis, found: Solved) -> Couples | None:
+    """The planes of all pairs and of what may be some; None where one does not become sharp."""
+    doubtful = nearly_meeting(found.values, found.coupling)
+    if len(doubtful) > MANY * len(found.values):
+        return None
+    sure = found.values.imag > REAL
+    sure[doubtful] = False
+    (sure,) = np.nonzero(sure)
+    places = np.vstack([doubtful, np.stack([sure, sure + 1], axis=1)])
+    now = Couples.of(matrix, *(of(places) for of in (basis.columns, basis.rows)))
+    blunt = now.residual >= SHARP
+    blunt[: len(doubtful)] = True
+    for _ in range(STEPS):
+        if not blunt.any():
+            break
+        better = _improved(now.at(blunt), basis, found.values, places[blunt])
+        now = now.with_those(blunt, Couples.of(matrix, *better))
+        blunt = ~(now.residual < SHARP)
+    return None if blunt.any() else now
+
+
+def _improved(
+    now: Couples, basis: Basis, values: np.ndarray, places: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """R and L (K, 2, M) one step nearer to those of K."""
+    vectors, size, inverse = basis
+
+    def step(missing, block, onto, values, size, back):
+        others = (missing.reshape(-1, missing.shape[2]).astype(np.float32) @ onto).reshape(
+            missing.shape
+        )
+        others[np.arange(len(places))[:, None], :, places] = 0.0
+        others = _divided(others, block, values, size)
+        return (others.reshape(-1, missing.shape[2]) @ back).reshape(missing.shape)
+
+    return (
+        now.right + step(now.missing, now.block, inverse.T, values, size, vectors.T),
+        now.left
+        + step(
+            now.missing_left,
+            now.block.swapaxes(1, 2),
+            vectors,
+            values.conj(),
+            1.0 / size,
+            inverse,
+        ),
     )
-    return planes_of(matrix, right, left)
-
-
-def _without(coordinates: np.ndarray, couples: np.ndarray) -> np.ndarray:
-    """Coordinates (M, 2K) of fields of K planes, those within each plane left out."""
-    coordinates[couples[:, :, None], np.arange(2 * len(couples)).reshape(-1, 1, 2)] = 0.0
-    return coordinates
 
 
 def _divided(
-    coordinates: np.ndarray, middle: np.ndarray, values: np.ndarray, size: np.ndarray
+    coordinates: np.ndarray, block: np.ndarray, values: np.ndarray, size: np.ndarray
 ) -> np.ndarray:
-    """(σ − Λ)⁻¹ c for coordinates (M, K) in columns of norm 1, of the norms `size` in Λ.
+    """The x of x B − Λ x = c for coordinates c (K, 2, M) in columns of norm 1, of norms `size`.
 
-    On Re u and Im u of a pair Λ is ((λ_r, λ_i), (−λ_i, λ_r)); on its left vectors λ_i is −λ_i.
+    On Re u and Im u of a pair, with coordinates α and β, Λ multiplies α − iβ by λ.
     """
-    distance = middle - values.real[:, None]
-    found = coordinates * distance
     (pair,) = np.nonzero(values.imag)
     one, two = pair[::2], pair[1::2]
-    turn = values.imag[one] * size[one] / size[two]
-    back = values.imag[one] * size[two] / size[one]
-    found[one] += turn[:, None] * coordinates[two]
-    found[two] -= back[:, None] * coordinates[one]
-    return found / (distance**2 + values.imag[:, None] ** 2)
+    ratio = (size[one] / size[two]).astype(np.float32)
+    c = coordinates.astype(np.complex64)
+    c[:, :, one] -= 1j * ratio * coordinates[:, :, two]
+    (p, q), (r, s) = np.moveaxis(block, 0, -1)[..., None]
+    p, s = ((of - values).astype(np.complex64) for of in (p, s))
+    q, r = (of.astype(np.float32) for of in (q, r))
+    scale = 1.0 / (p * s - q * r)
+    x = np.stack([(c[:, 0] * s - c[:, 1] * r) * scale, (c[:, 1] * p - c[:, 0] * q) * scale], axis=1)
+    found = x.real
+    found[:, :, two] = -x.imag[:, :, one] / ratio
+    return found
