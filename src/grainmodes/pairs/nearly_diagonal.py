@@ -32,11 +32,14 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import lapack
 
-WIDTH, MARGIN, HUBS = 40, 12, 8
-"""Modes of a window, those solved with it on both sides, and most modes in every window.
+SIZE, MARGIN, HUBS = 72, 12, 16
+"""Modes solved with a window, of these in the margin on each side, and most of them hubs.
 
 LAPACK takes another, slower path from 75 on.
 """
+
+MISCOUNTED = 0.02
+"""Missing part of tr B from which an eigenvalue was left out and another one taken twice."""
 
 OUTSTANDING = 20.0
 """Coupling of such a mode to all others, in units of the median."""
@@ -76,10 +79,9 @@ class NearlyDiagonal(NamedTuple):
         np.fill_diagonal(transposed, 0.0)
         return cls(order, diagonal[order], np.ascontiguousarray(transposed.T), transposed)
 
-    @property
-    def halfway(self) -> NearlyDiagonal:
-        """diag(d) + E/2."""
-        return self._replace(change=0.5 * self.change, transposed=0.5 * self.transposed)
+    def partly(self, part: float) -> NearlyDiagonal:
+        """A part of the way from diag(d) to B."""
+        return self._replace(change=part * self.change, transposed=part * self.transposed)
 
     @property
     def hubs(self) -> np.ndarray:
@@ -103,11 +105,12 @@ class Window(NamedTuple):
 
 
 def solved(matrix: NearlyDiagonal) -> Solved | None:
-    """The eigenpairs of B; None where their number is not that of the modes."""
-    size = len(matrix.diagonal)
-    edges = [*range(0, size - WIDTH // 2, WIDTH), size]
+    """The eigenpairs of B; None where an eigenvalue is missing or counted twice."""
+    size, hubs = len(matrix.diagonal), matrix.hubs
+    width = SIZE - 2 * MARGIN - len(hubs)
+    edges = [*range(0, size - width // 2, width), size]
     with np.errstate(all="ignore"):  # a mode outside a window may stand exactly at its λ
-        windows = [*_windows(matrix, edges)]
+        windows = [*_windows(matrix, edges, hubs)]
         ends = [0.5 * matrix.diagonal[end - 1 : end + 1].sum() for end in edges[1:-1]]
         cuts = [_cut(*both, end) for both, end in zip(pairwise(windows), ends, strict=True)]
         limits = pairwise([-np.inf, *cuts, np.inf])
@@ -118,14 +121,14 @@ def solved(matrix: NearlyDiagonal) -> Solved | None:
         rows, coupling = (
             np.concatenate(of) for of in zip(*(_extended(matrix, of) for of in taken), strict=True)
         )
-    if not np.isfinite(coupling).all():
+    missing = abs(values.real.sum() - matrix.diagonal.sum())
+    if not np.isfinite(coupling).all() or missing > MISCOUNTED:
         return None
-    return Solved(values, rows, coupling, abs(values.real.sum() - matrix.diagonal.sum()))
+    return Solved(values, rows, coupling, missing)
 
 
-def _windows(matrix: NearlyDiagonal, edges: list[int]) -> Iterator[Window]:
+def _windows(matrix: NearlyDiagonal, edges: list[int], hubs: np.ndarray) -> Iterator[Window]:
     """All modes between two edges and in the margins on both sides, by LAPACK."""
-    hubs = matrix.hubs
     for first, last in pairwise(edges):
         near = np.arange(max(first - MARGIN, 0), min(last + MARGIN, edges[-1]))
         inside, middle = np.union1d(near, hubs), matrix.diagonal[(first + last) // 2]
@@ -158,7 +161,7 @@ def _cut(left: Window, right: Window, wanted: float) -> float:
 def _extended(matrix: NearlyDiagonal, window: Window) -> tuple[np.ndarray, np.ndarray]:
     """The vectors (K, M) of a window over all modes, and the parts outside it."""
     inside, values, inner = window
-    vectors = divided(inner @ matrix.transposed[inside], values, matrix.diagonal)
+    vectors = _divided(inner @ matrix.transposed[inside], values, matrix.diagonal)
     vectors[:, inside] = 0.0
     parts = np.stack([np.einsum("km,km->k", of, of) for of in (vectors, inner)])
     vectors[:, inside] = inner
@@ -167,8 +170,8 @@ def _extended(matrix: NearlyDiagonal, window: Window) -> tuple[np.ndarray, np.nd
     return vectors, np.sqrt(parts[0] / parts[1])
 
 
-def divided(rows: np.ndarray, values: np.ndarray, diagonal: np.ndarray) -> np.ndarray:
-    """x (λ − d)⁻¹ for the vectors x (K, M) of eigenvalues λ, a pair's as real and imaginary part."""
+def _divided(rows: np.ndarray, values: np.ndarray, diagonal: np.ndarray) -> np.ndarray:
+    """(λ − d)⁻¹ x for rows x (K, M) of eigenvalues λ, of a pair its real and imaginary part."""
     distance = (values.real[:, None] - diagonal).astype(np.float32)
     imaginary = values.imag.astype(np.float32)[:, None]
     found = rows * distance
