@@ -37,7 +37,7 @@ from grainmodes.pairs.sharpening import sharpened
 ENOUGH = 1.0
 """Largest part of an eigenvector outside its window with which a pass is believed."""
 
-SUM_RIGHT = 3e-3
+SUM_RIGHT = 1e-3
 """What the sum of the eigenvalues may be off by."""
 
 MOST = 5

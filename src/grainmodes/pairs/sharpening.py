@@ -35,7 +35,7 @@ SHARP = 1e-4
 STEPS = 3
 """Steps after which a plane that is not sharp will not become so."""
 
-MANY = 0.2
+MANY = 0.25
 """Couples in doubt, in units of all modes, from which another pass costs less."""
 
 HOPELESS = 0.125
@@ -44,7 +44,7 @@ HOPELESS = 0.125
 CLOSE = 1e-4
 """|λ1 − λ2|, k_N d^(1/2)/m, within which a pass does not tell a pair from two real modes."""
 
-LOOSE = 0.15
+LOOSE = 0.3
 """The same for a strongly coupled mode, in units of its coupling squared; measured."""
 
 
