@@ -6,15 +6,18 @@ columns V, the next K is nearly diagonal:
     B = V⁻¹ K V = Λ + V⁻¹ (K V − V Λ)
 
 and `nearly_diagonal` gives its eigenvalues and the new vectors, V X. V is real: for a complex pair
-it holds Re u and Im u. It need not be exact, and is kept in single precision with its inverse; the
-residual K V − V Λ is not, so that λ is right far beyond that. What matters is the distance from V
-to the eigenvectors, told by the coupling, and each pass takes it to its square:
+it holds Re u and Im u. It need not be exact, and all of a pass is in single precision. What matters
+is the distance from V to the eigenvectors, told by the coupling, and each pass takes it to its
+square. Every pair, and every two real eigenvalues that may be one, is then a plane with a residual
+in double precision (`couples`), and is sharpened until that is small (`sharpening`):
 
-| coupling         | then                                                                  |
-| ---------------- | --------------------------------------------------------------------- |
-| below `ENOUGH`   | the pairs are those of this pass, once those that nearly meet are     |
-|                  | sharpened (`sharpening`), to a residual below `SHARP`                 |
-| else             | another pass from the new vectors, `MOST` at most, then LAPACK        |
+| after a pass                                 | then                                              |
+| -------------------------------------------- | ------------------------------------------------- |
+| every plane has become sharp                 | the pairs are the planes with complex eigenvalues |
+| coupling above `ENOUGH`, a sum that is off,  | another pass from the new vectors, `MOST` at most |
+| too many planes in doubt, one stays blunt    |                                                   |
+| an eigenvalue is missing or there twice      | the same pass halfway, or a quarter of the way    |
+| and there as well                            | LAPACK                                            |
 
 Grains that come to carry load or cease to change the size of K. For one state it stands on the
 grains of both, the basis with a unit vector for every coordinate of a grain that came; the vectors
@@ -28,19 +31,20 @@ import scipy.sparse as sparse
 
 from grainmodes.pairs.basis import Basis
 from grainmodes.pairs.definition import Loaded, Pairs, dense_eigenpairs, selected
-from grainmodes.pairs.nearly_diagonal import BROAD, NearlyDiagonal, Solved, solved
-from grainmodes.pairs.plane import Plane
-from grainmodes.pairs.sharpening import nearly_meeting, sharpened
-from grainmodes.stability import REAL
+from grainmodes.pairs.nearly_diagonal import NearlyDiagonal, Solved, solved
+from grainmodes.pairs.sharpening import sharpened
 
-ENOUGH = 0.3
+ENOUGH = 1.0
 """Largest part of an eigenvector outside its window with which a pass is believed."""
 
-SHARP = 1e-4
-"""Residual of a sharpened plane, in units of max|K|; λ is right to about its square."""
+SUM_RIGHT = 1e-3
+"""What the sum of the eigenvalues may be off by."""
 
-MOST = 4
+MOST = 5
 """Passes, after which LAPACK costs no more."""
+
+PARTS = (0.5, 0.25)
+"""How far to go where the whole way is too far for the windows."""
 
 
 class Carried:
@@ -75,37 +79,23 @@ class Carried:
             found = self._pass(matrix)
             if found is None:
                 break
-            if found.coupling.max() < ENOUGH:
-                couples = nearly_meeting(found.values, found.coupling)
-                planes = sharpened(matrix, self._basis, found.values, couples)
-                if all(plane.residual < SHARP for plane in planes):
-                    return self._pairs(found.values, couples, planes)
+            if found.coupling.max() < ENOUGH and found.missing < SUM_RIGHT:
+                couples = sharpened(matrix, self._basis, found)
+                if couples is not None:
+                    return couples.pairs
         return None
 
     def _pass(self, matrix: sparse.csr_array) -> Solved | None:
-        """The eigenpairs of B; the basis goes on to them."""
-        vectors = self._basis.vectors.astype(float)
-        moved = matrix @ vectors
+        """The eigenpairs of B, or of a matrix on the way to it; the basis goes on to them."""
+        vectors = self._basis.vectors
+        moved = matrix.astype(np.float32) @ vectors
         diagonal = np.einsum("nk,nk->k", vectors, moved)
-        change = self._basis.coordinates(moved - vectors * diagonal)
-        nearly = NearlyDiagonal.of(diagonal, change)
-        found = solved(nearly) or solved(nearly, BROAD)
+        change = self._basis.inverse @ (moved - vectors * diagonal)
+        nearly = NearlyDiagonal.of(diagonal.astype(float), change)
+        found = solved(nearly) or _on_the_way(nearly)
         if found is not None:
-            self._basis = Basis.of(self._basis.vectors[:, nearly.order] @ found.rows.T)
+            self._basis = Basis.of(vectors[:, nearly.order] @ found.rows.T)
         return found
-
-    def _pairs(self, values: np.ndarray, couples: np.ndarray, planes: list[Plane]) -> Pairs:
-        """The pairs among eigenvalues; where two nearly meet, those of their sharpened planes."""
-        alone = values.imag > REAL
-        alone[couples] = False
-        (at,) = np.nonzero(alone)
-        right, left = (of(at) + 1j * of(at + 1) for of in (self._basis.columns, self._basis.rows))
-        met = [plane for plane in planes if plane.is_pair]
-        return selected(
-            np.append(values[at], [plane.values[0] for plane in met]),
-            np.hstack([right, *(plane.vectors[:, :1] for plane in met)]),
-            np.hstack([left, *(plane.left_vectors[:, :1] for plane in met)]),
-        )
 
     def _anew(self, loaded: Loaded) -> Pairs:
         """By LAPACK, the vectors kept."""
@@ -114,6 +104,15 @@ class Carried:
         self._basis = Basis.of(np.where(values.imag < 0.0, -right.imag, right.real)[:, order])
         self._held, self.dense = loaded.held, True
         return selected(values, right, left)
+
+
+def _on_the_way(matrix: NearlyDiagonal) -> Solved | None:
+    """The eigenpairs of the first nearer matrix that has all of them; not to be believed."""
+    for part in PARTS:
+        found = solved(matrix.partly(part))
+        if found is not None:
+            return found._replace(missing=np.inf)
+    return None
 
 
 def _on(these: np.ndarray, matrix: sparse.csr_array) -> sparse.csr_array:

@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from grainmodes.pairs.couples import orthonormal
 from grainmodes.pairs.definition import Pairs
-from grainmodes.pairs.plane import orthonormal
 
 SAME = 0.5
 """Part of the new plane in the old one from which two pairs are the same."""

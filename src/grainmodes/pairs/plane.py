@@ -25,6 +25,8 @@ import scipy.sparse as sparse
 
 from grainmodes.pairs.shifted import Shifted
 
+from grainmodes.pairs.couples import Couples
+
 MOST = 12
 """Iterations: four times what a plane needs that has turned by a tenth."""
 
@@ -100,41 +102,8 @@ class Plane(NamedTuple):
 
 def plane_of(matrix: sparse.csr_array, right: np.ndarray, left: np.ndarray) -> Plane:
     """The plane of real vectors (M, 2) as it is, with its residual; they need no scale."""
-    return planes_of(matrix, right, left)[0]
-
-
-def planes_of(matrix: sparse.csr_array, right: np.ndarray, left: np.ndarray) -> list[Plane]:
-    """The planes of each two columns of real vectors (M, 2K), as `plane_of` of each."""
-    right, left = (orthonormal(of.T.reshape(-1, 2, len(of))) for of in (right, left))
-    left = np.linalg.inv(left @ right.swapaxes(1, 2)) @ left
-    forward, back = _applied(matrix, right), _applied(matrix.T, left)
-    block = left @ forward.swapaxes(1, 2)
-    missing = _size(forward - block.swapaxes(1, 2) @ right)
-    missing_left = _size(back - block @ left) / _size(left)
-    residual = np.maximum(missing, missing_left) / np.abs(matrix.data).max()
-    return [
-        Plane(right.T, left.T, block, residual)
-        for right, left, block, residual in zip(right, left, block, residual.tolist(), strict=True)
-    ]
-
-
-def orthonormal(planes: np.ndarray) -> np.ndarray:
-    """Orthonormal bases (K, 2, M) of the planes of two rows each: Gram-Schmidt, twice."""
-    one, two = planes[:, 0], planes[:, 1]
-    one = one / np.linalg.norm(one, axis=1, keepdims=True)
-    for _ in range(2):
-        two = two - one * np.einsum("km,km->k", one, two)[:, None]
-        two = two / np.linalg.norm(two, axis=1, keepdims=True)
-    return np.stack([one, two], axis=1)
-
-
-def _applied(matrix: sparse.csr_array, planes: np.ndarray) -> np.ndarray:
-    """K of every row of planes (K, 2, M)."""
-    return (matrix @ planes.reshape(-1, planes.shape[2]).T).T.reshape(planes.shape)
-
-
-def _size(planes: np.ndarray) -> np.ndarray:
-    return np.linalg.norm(planes, axis=(1, 2))
+    found = Couples.of(matrix, right.T[None], left.T[None])
+    return Plane(found.right[0].T, found.left[0].T, found.block[0], float(found.residual[0]))
 
 
 def plane_near(matrix: sparse.csr_array, start: Plane) -> Plane:
