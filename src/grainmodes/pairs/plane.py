@@ -23,9 +23,8 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse as sparse
 
-from grainmodes.pairs.shifted import Shifted
-
 from grainmodes.pairs.couples import Couples
+from grainmodes.pairs.shifted import Shifted
 
 MOST = 12
 """Iterations: four times what a plane needs that has turned by a tenth."""
