@@ -1,8 +1,8 @@
 """The stage `pairs`: complex pairs of every packing of a block along its shear, C, Sec. V.
 
 A row holds every state in numbers, every pair from birth to death, the exceptional points that were
-located with the states around them, the two modes of each along the walk, and the state whose
-pair grows fastest, whole: it is where a release of the dynamics starts (C, Sec. VI).
+located with the states around them, the two modes of each along the walk, and whole the state from
+which the dynamics is released (C, Sec. VI): that of the fastest pair with room to grow (`room`).
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.exceptional_points import COALESCENCE, Side
 from grainmodes.protocols.pair_paths import path_of, products_along
-from grainmodes.protocols.pair_tracking import Life, Located, PairWalk, Unstable
+from grainmodes.protocols.pair_tracking import Life, Located, PairWalk
+from grainmodes.protocols.room import Chosen
 from grainmodes.rows import response_block
 from grainmodes.samples import jammed_packing
 from grainmodes.stability import INERTIA
@@ -167,8 +168,8 @@ def _columns(of: str, names: Sequence[str], rows: list[tuple]) -> dict[str, obje
     return {f"{of}_{name}": values for name, values in zip(names, columns, strict=bool(rows))}
 
 
-def _unstable(unstable: Unstable | None) -> dict[str, object]:
-    """The state of the largest ω_i, its pair sharpened to the last digits."""
+def _unstable(unstable: Chosen | None) -> dict[str, object]:
+    """The state to release, its pair sharpened to the last digits."""
     if unstable is None:
         return {"unstable_found": False}
     balance = unstable.state.balance
@@ -187,6 +188,7 @@ def _unstable(unstable: Unstable | None) -> dict[str, object]:
         "unstable_eigenvalue_imag": plane.values[0].imag,
         "unstable_condition": plane.condition,
         "unstable_residual": plane.residual,
+        "unstable_room": unstable.room,
         "unstable_mode_real": mode.real,
         "unstable_mode_imag": mode.imag,
     }

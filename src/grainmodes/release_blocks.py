@@ -2,7 +2,7 @@
 
 A run takes minutes, so a keeper may be told now and then how far it has come and asked where to go
 on; a run depends on its state alone, and where it was interrupted leaves no trace in the numbers.
-A sample that met no complex pair is a row that says so.
+A sample without a state to release is a row that says so.
 """
 
 from __future__ import annotations

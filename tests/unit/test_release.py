@@ -18,6 +18,7 @@ from grainmodes.protocols.growth import FEWEST, fitted
 from grainmodes.protocols.release import FRAMES, Run
 from grainmodes.protocols.release_fate import fate_of
 from grainmodes.protocols.release_record import Record, burden, record
+from grainmodes.protocols.spirals import spirals_of
 from grainmodes.relaxation.dynamics import Motion, move
 from grainmodes.stability import INERTIA
 from released import SHORT, released, series, state
@@ -211,6 +212,24 @@ def test_a_film_shows_every_grain_a_part_of_a_turn_apart():
     turns = np.diff(steps) * SHORT.time_step * start.frequency / (2 * np.pi)
     np.testing.assert_allclose(turns - np.rint(turns), 1 / 24, atol=0.02)
     assert (steps[-1] - steps[0]) * SHORT.time_step * start.rate == pytest.approx(2.0, abs=0.8)
+
+
+def test_the_film_of_a_fast_growth_is_no_longer_than_that_of_a_slow_one():
+    start, _, rule = state()
+    fast = replace(start, eigenvalue=(0.24 + 0.06j) ** 2)
+    run = Run.begin(fast, rule, SHORT)
+    run._look_closely()
+    taken = np.array(sorted(run.frames)) * SHORT.time_step
+    assert len(taken) == FRAMES
+    assert taken[-1] * fast.rate == pytest.approx(1.5, rel=0.02)
+
+
+def test_a_loose_grain_draws_no_spiral():
+    run = released()
+    law = fate_of(run).displacement
+    still = [(step, moved * (np.arange(50) != 7)[:, None]) for step, moved in run.film]
+    loose = SimpleNamespace(film=still, choices=run.choices, start=run.start)
+    assert spirals_of(loose, law).opening == pytest.approx(spirals_of(run, law).opening, rel=0.1)
 
 
 @pytest.mark.parametrize("times", [1.8, 2.2])

@@ -78,7 +78,7 @@ class Leaving(NamedTuple):
 
 
 def leaving(n: int, seed: int) -> Leaving | None:
-    """The state along a shear whose pair grows fastest, if it does not grow too slowly."""
+    """The state along a shear that is released, if it does not grow too slowly."""
     walk = PairWalk.start(compressed(n, seed, 0.9, GRAINS), RULE, SHEAR, PAIRS)
     while not walk.done:
         walk.advance()

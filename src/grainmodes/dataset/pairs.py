@@ -82,9 +82,9 @@ NAMES = {
     "product_mode": Variable(PRODUCT, "i4", "1", "number of the mode that is looked at"),
     "product_other": Variable(PRODUCT, "i4", "1", "number of another mode, from 0 by real part"),
     "product_value": Variable(PRODUCT, "f8", "1", "scalar product of the two eigenvectors"),
-    # the state that grows fastest
-    "unstable_found": Variable(BLOCK, "i1", "1", "1 if a state had a complex pair"),
-    "unstable_strain": Variable(BLOCK, "f8", "1", "strain of the state with the largest omega_i"),
+    # the state to release
+    "unstable_found": Variable(BLOCK, "i1", "1", "1 if a complex pair of a state had room to grow"),
+    "unstable_strain": Variable(BLOCK, "f8", "1", "strain of the state with the fastest of these"),
     "unstable_fraction": Variable(
         ("seed", "grain", "axis"), "i8", "2^-64 L", "grain position in that state"
     ),
@@ -92,11 +92,14 @@ NAMES = {
     "unstable_contact_i": Variable(CONTACT, "i4", "1", "grain i of a contact; -1: none"),
     "unstable_contact_j": Variable(CONTACT, "i4", "1", "grain j of a contact; -1: none"),
     "unstable_slip": Variable(CONTACT, "f8", "d", "tangential displacement of a contact"),
-    "unstable_eigenvalue_real": Variable(BLOCK, "f8", EIGENVALUE, "lambda_r of its fastest pair"),
-    "unstable_eigenvalue_imag": Variable(BLOCK, "f8", EIGENVALUE, "lambda_i of its fastest pair"),
+    "unstable_eigenvalue_real": Variable(BLOCK, "f8", EIGENVALUE, "lambda_r of this pair"),
+    "unstable_eigenvalue_imag": Variable(BLOCK, "f8", EIGENVALUE, "lambda_i of this pair"),
     "unstable_condition": Variable(BLOCK, "f8", "1", "condition of this eigenvalue"),
     "unstable_residual": Variable(
         BLOCK, "f8", "1", "residual of the pair's plane, in units of the largest entry of J / M"
+    ),
+    "unstable_room": Variable(
+        BLOCK, "f8", "d^2", "M at which its linear growth changes the contacts first"
     ),
     "unstable_mode_real": Variable(
         GRAINS, "f8", "1", "real part of its eigenvector q of J / M, (x, y, l), norm 1"

@@ -94,7 +94,9 @@ NAMES = {
     "release_stress_yx": Variable(RECORD, "f8", MODULUS, "stress sigma_yx"),
     "release_contact_number": Variable(RECORD, "f8", "1", "mean number of contacts of a grain"),
     "release_sliding": Variable(RECORD, "i8", "1", "contacts at Coulomb's threshold"),
-    "release_changed": Variable(RECORD, "i8", "1", "contacts gained and lost since the start"),
+    "release_changed": Variable(
+        RECORD, "i8", "1", "contacts gained and lost since the start, but for loose grains"
+    ),
     "release_kinetic_energy": Variable(RECORD, "f8", ENERGY, "kinetic energy"),
     # the run without damping
     "release_frame_time": Variable(FRAME, "f8", "t_0", "time of a frame of the film"),

@@ -20,6 +20,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import least_squares
 
+LINEAR = (1e-19, 1e-11)
+"""M, in d², between which growth is fitted: above round-off, below what changes the forces."""
+
 FEWEST = 60
 """Records without which nothing is fitted."""
 

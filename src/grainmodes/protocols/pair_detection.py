@@ -22,6 +22,7 @@ from grainmodes.pairs.following import Planes
 from grainmodes.pairs.plane import plane_of
 from grainmodes.protocols.exceptional_points import Side
 from grainmodes.relaxation.balance import Balance
+from grainmodes.stability import INERTIA
 
 
 class Detector(Protocol):
@@ -82,6 +83,11 @@ class Seen:
     def strain(self) -> float:
         """γ."""
         return self.balance.packing.strain
+
+    def motions(self, places: np.ndarray) -> np.ndarray:
+        """q = M^(−1/2) u of some of the pairs, (N, 3, P) complex."""
+        scale = 1.0 / np.sqrt(self.balance.packing.mass[:, None] * INERTIA)
+        return self.pairs.right[:, places].reshape(*scale.shape, -1) * scale[:, :, None]
 
     def side(self, place: int) -> Side:
         """The state with the plane of one of its pairs."""

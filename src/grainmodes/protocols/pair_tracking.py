@@ -38,6 +38,7 @@ from grainmodes.protocols.exceptional_points import (
 )
 from grainmodes.protocols.pair_detection import DETECTORS, Detector, Seen, seen_by
 from grainmodes.protocols.quasistatic import first_balance, step_to
+from grainmodes.protocols.room import Chosen, fastest_with_room
 from grainmodes.protocols.sheared_state import network_changes
 from grainmodes.relaxation.balance import Balance
 
@@ -76,14 +77,6 @@ class Count(NamedTuple):
     dense: bool
 
 
-class Unstable(NamedTuple):
-    """The state of the largest ω_i so far and where its pair stands among the others."""
-
-    growth: float
-    state: Seen
-    place: int
-
-
 @dataclass
 class PairWalk:
     """How far a shear has come, and every pair on the way.
@@ -101,7 +94,7 @@ class PairWalk:
     alive: list[int] = field(default_factory=list)
     located: list[Located] = field(default_factory=list)
     states: list[Balance] = field(default_factory=list)
-    unstable: Unstable | None = None
+    unstable: Chosen | None = None
 
     @classmethod
     def start(cls, packing: Packing, interaction, choices: Shear, asked: PairChoices) -> PairWalk:
@@ -186,8 +179,8 @@ class PairWalk:
         place = int(np.argmax(growth))
         value, condition = complex(pairs.value[place]), float(pairs.condition[place])
         self.counts.append(self._in_numbers(value, condition))
-        if self.unstable is None or growth[place] > self.unstable.growth:
-            self.unstable = Unstable(float(growth[place]), self.now, place)
+        slower = self.unstable.growth if self.unstable else 0.0
+        self.unstable = fastest_with_room(self.now, slower) or self.unstable
 
     def _in_numbers(self, fastest: complex, condition: float) -> Count:
         of_jacobian, balance = np.nan, self.now.balance

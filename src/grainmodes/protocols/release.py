@@ -6,8 +6,9 @@ Velocity Verlet in pieces from look to look. It is looked at
 
     in even intervals, `records` of them, and before that as often as time grows by a tenth;
     closely, once M has reached 1e-16 d²: over `TURNS` turns of 2π/ω_r, to see them, and
-    then `FRAMES` times within about 1.5 / ω_i, each a 24th of a turn further than the one before:
-    a film in which the spirals turn, however many turns the growth takes (C, Fig. 5).
+    `FRAMES` times within about 1.5 / ω_i, each a 24th of a turn further than the one before: a
+    film in which the spirals turn, however many turns the growth takes (C, Fig. 5); less than a
+    24th where the growth takes less than six turns.
 
 Verlet turns a mode of frequency Ω at (2/Δt) arcsin(ΩΔt/2), so that ω_i is too large by the part
 (ω_r Δt)²/8 and ω_r by (ω_r Δt)²/24; at Δt = 0.1 that is 1e-3 and less.
@@ -145,6 +146,7 @@ class Run:
         looks = self.steps + np.rint(part * np.arange(1, TURNS * LOOKS_A_TURN + 1)).astype(int)
         growth = FILMED / (self.start.rate * self.choices.time_step)
         skipped = turn * round(growth / FRAMES / turn)
-        frames = looks[-1] + np.rint((skipped + part) * np.arange(FRAMES)).astype(int)
+        apart = skipped + min(part, growth / FRAMES)
+        frames = self.steps + np.rint(apart * np.arange(1, FRAMES + 1)).astype(int)
         self.close = np.unique([*looks, *frames]).tolist()
         self.frames = frozenset(frames.tolist())

@@ -19,12 +19,9 @@ from typing import NamedTuple
 import numpy as np
 
 from grainmodes.packing import find_contacts
-from grainmodes.protocols.growth import UNKNOWN, Law, fitted
+from grainmodes.protocols.growth import LINEAR, UNKNOWN, Law, fitted
 from grainmodes.protocols.release import Run
 from grainmodes.protocols.release_record import Record
-
-LINEAR = (1e-19, 1e-11)
-"""M, in d², between which growth is fitted: above round-off, below what changes the forces."""
 
 OFF = 0.5
 """How far M may lie off its law, in parts of the mean law, while it still grows."""

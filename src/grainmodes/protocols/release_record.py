@@ -16,7 +16,8 @@ import numpy as np
 
 from grainmodes.forces import forces_on_i, sliding, stress
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing import Contacts, Packing, find_contacts, nonaffine_motion
+from grainmodes.packing import Contacts, Packing, find_contacts, nonaffine_motion, rattlers
+from grainmodes.relaxation.balance import most_loose
 from grainmodes.relaxation.dynamics import Motion
 from grainmodes.stability import INERTIA
 
@@ -24,8 +25,9 @@ from grainmodes.stability import INERTIA
 class Record(NamedTuple):
     """The state at a time, in numbers.
 
-    `changed` counts the contacts that the start lacks or has more, `sliding` those at Coulomb's
-    threshold; the contact number is 2 C / N over all grains.
+    `changed` counts the contacts that the start lacks or has more, between grains that carry load
+    there: a loose grain may begin to touch at any time and bears nothing. `sliding` counts those at
+    Coulomb's threshold; the contact number is 2 C / N over all grains.
     """
 
     time: float
@@ -55,9 +57,15 @@ def record(time: float, now: Motion, start: Packing, interaction: Interaction) -
         float(sigma[1, 0]),
         2.0 * len(contacts.i) / packing.n,
         int(sliding(contacts, interaction).sum()),
-        len(np.setxor1d(_pairs(contacts), _pairs(find_contacts(start)), assume_unique=True)),
+        changes(contacts, find_contacts(start), packing.n, interaction),
         0.5 * float((inertia * now.velocity**2).sum()),
     )
+
+
+def changes(now: Contacts, before: Contacts, n: int, interaction: Interaction) -> int:
+    """Contacts gained and lost between the grains that carried load before."""
+    held = ~rattlers(before, n, most_loose(interaction))
+    return len(np.setxor1d(*(_pairs(of.among(held)) for of in (now, before)), assume_unique=True))
 
 
 class Burden(NamedTuple):

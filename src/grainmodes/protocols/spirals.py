@@ -47,7 +47,8 @@ def spirals_of(run: Run, law: Law) -> Spirals:
 
 
 def _openings(wave: np.ndarray) -> np.ndarray:
-    """Ratio of the axes of every grain's ellipse, (N,)."""
+    """Ratio of the axes of every moving grain's ellipse; a loose grain draws none."""
     plane = wave.reshape(-1, 3)[:, :2]
     long, short = np.linalg.svd(np.stack([plane.real, plane.imag], axis=1), compute_uv=False).T
-    return short / long
+    moving = long > 0.0
+    return short[moving] / long[moving]
