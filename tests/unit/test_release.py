@@ -17,7 +17,7 @@ from grainmodes.parameters.release import Release
 from grainmodes.protocols.growth import FEWEST, fitted
 from grainmodes.protocols.release import FRAMES, Run
 from grainmodes.protocols.release_fate import fate_of
-from grainmodes.protocols.release_record import Record, burden, record
+from grainmodes.protocols.release_record import Record, burden, changes, record
 from grainmodes.protocols.spirals import spirals_of
 from grainmodes.relaxation.dynamics import Motion, move
 from grainmodes.stability import INERTIA
@@ -324,3 +324,11 @@ def energy_error(packing, start, rule, dt: float) -> float:
             motion.packing, motion.velocity, rule, Undamped(), dt, Stop(0.0, round(2 / dt))
         )
     return np.abs(np.array(totals) - totals[0]).max()
+
+
+def test_a_loose_grain_changes_no_contacts():
+    start, _, rule = state()
+    n, contacts = start.packing.n, find_contacts(start.packing)
+    without_last = contacts.among(np.arange(n) < n - 1)
+    assert changes(contacts, without_last, n, rule) == 0
+    assert changes(without_last, contacts, n, rule) == len(contacts.i) - len(without_last.i) > 0
