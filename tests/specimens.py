@@ -12,8 +12,9 @@ import xarray as xr
 from hypothesis import HealthCheck, settings
 
 import naive
+from grainmodes.contacts import Contacts, History
 from grainmodes.kernels.laws import Hertz, Interaction, interaction
-from grainmodes.packing import Contacts, History, Packing, find_contacts
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.protocols.compression import advanced, balanced, placed

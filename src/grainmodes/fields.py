@@ -23,9 +23,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from grainmodes.contacts import rattlers
 from grainmodes.kernels.laws import Interaction
 from grainmodes.modes import mode_sum
-from grainmodes.packing import Packing, find_contacts, nonaffine_motion, rattlers
+from grainmodes.packing import Packing, find_contacts, nonaffine_motion
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.step_strain import relaxed_steps

@@ -10,12 +10,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from grainmodes.contacts import Contacts
 from grainmodes.kernels.assembly import on_grains
 from grainmodes.kernels.contacts import contact_forces, normal_forces
 from grainmodes.kernels.energies import contact_energies
 from grainmodes.kernels.laws import AT_THRESHOLD, Frictionless, Interaction
 from grainmodes.kernels.springs import thresholds
-from grainmodes.packing import Contacts, Packing
+from grainmodes.packing import Packing
 
 SIGNS = np.array([-1.0, -1.0, 1.0])
 """How (x, y, ℓ) of grain j enter the relative coordinates and the force."""

@@ -21,11 +21,12 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sparse
 
+from grainmodes.contacts import Contacts
 from grainmodes.forces import is_frictionless
 from grainmodes.jacobian import assemble, stiffness_of
 from grainmodes.kernels.contacts import normal_forces, normal_slope
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing import Contacts, Packing
+from grainmodes.packing import Packing
 
 STIFFNESSES = ("tangent", "printed")
 """Which K_N and K_T stand in U_eff."""

@@ -15,11 +15,12 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sparse
 
+from grainmodes.contacts import Contacts
 from grainmodes.forces import SIGNS, is_frictionless
 from grainmodes.kernels.assembly import columns_of
 from grainmodes.kernels.contacts import contact_stiffness, normal_stiffness
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing import Contacts, Packing
+from grainmodes.packing import Packing
 
 
 def stiffness_of(contacts: Contacts, interaction: Interaction) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""The state of a packing: where the grains are, what touches what, and which grains are rattlers.
+"""The state of a packing: where the grains are; what touches then follows (`contacts`).
 
 | symbol            | name                    | shape, type          | unit    |
 | ----------------- | ----------------------- | -------------------- | ------- |
@@ -7,12 +7,9 @@
 | m_i               | mass                    | (N,) float64         | m       |
 | ℓ_i = d_i θ_i / 2 | rotation                | (N,) float64 or None | d       |
 | L, γ              | box_length, strain      | float                | d, 1    |
-| n_ij = r_ij/r_ij  | normal                  | (C, 2) float64       | 1       |
-| r_ij, ξ_ij        | distance, overlap       | (C,) float64         | d       |
-| s_ij, ξ_T,ij      | tangential_displacement | (C,) float64 or None | d       |
 
 A packing is never changed in place. Compression changes L, affine shear changes γ, and neither
-touches the fractions. Friction that was never loaded is `None`: it is neither stored nor computed.
+touches the fractions.
 """
 
 from __future__ import annotations
@@ -30,70 +27,8 @@ from grainmodes.box import (
     to_fraction,
     to_step,
 )
+from grainmodes.contacts import Contacts, History, rattlers
 from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours, matched, touching
-
-
-@dataclass(frozen=True)
-class Contacts:
-    """Touching pairs, i > j, sorted by (i, j); n points from j to i."""
-
-    i: np.ndarray
-    j: np.ndarray
-    normal: np.ndarray
-    distance: np.ndarray
-    overlap: np.ndarray
-    tangential_displacement: np.ndarray | None = None
-
-    @property
-    def tangent(self) -> np.ndarray:
-        """t = (n_y, −n_x), shape (C, 2)."""
-        return np.stack([self.normal[:, 1], -self.normal[:, 0]], axis=1)
-
-    @property
-    def displacement(self) -> np.ndarray:
-        """s of every contact, zero where friction was never loaded; shape (C,)."""
-        s = self.tangential_displacement
-        return np.zeros(len(self.i)) if s is None else s
-
-    def among(self, keep: np.ndarray) -> Contacts:
-        """The contacts between the grains of a (N,) mask, in their new numbers."""
-        if keep.all():
-            return self
-        held = keep[self.i] & keep[self.j]
-        number = np.cumsum(keep, dtype=np.int32) - 1
-        s = self.tangential_displacement
-        return Contacts(
-            number[self.i[held]],
-            number[self.j[held]],
-            self.normal[held],
-            self.distance[held],
-            self.overlap[held],
-            None if s is None else s[held],
-        )
-
-
-@dataclass(frozen=True)
-class History:
-    """Contacts with their tangential displacement s: pairs i > j sorted by (i, j)."""
-
-    i: np.ndarray
-    j: np.ndarray
-    tangential_displacement: np.ndarray
-
-    @classmethod
-    def of(cls, i: np.ndarray, j: np.ndarray, tangential_displacement: np.ndarray) -> History:
-        """The history of pairs in any order; s does not change sign when i and j are swapped."""
-        high, low = np.maximum(i, j), np.minimum(i, j)
-        order = np.lexsort((low, high))
-        return cls(high[order], low[order], np.asarray(tangential_displacement)[order])
-
-    def among(self, keep: np.ndarray) -> History:
-        """The contacts between the grains of a (N,) mask, in their new numbers."""
-        held = keep[self.i] & keep[self.j]
-        number = np.cumsum(keep, dtype=np.int32) - 1
-        return History(
-            number[self.i[held]], number[self.j[held]], self.tangential_displacement[held]
-        )
 
 
 @dataclass(frozen=True)
@@ -240,19 +175,6 @@ def find_contacts(packing: Packing) -> Contacts:
     known = packing.history
     s = known and matched(known.i, known.j, known.tangential_displacement, i, j)
     return Contacts(i, j, normal, distance, overlap, s)
-
-
-def rattlers(contacts: Contacts, n: int, threshold: int) -> np.ndarray:
-    """(N,) bool: grains of at most `threshold` contacts, removed until none is left: A, App. E."""
-    gone = np.zeros(n, bool)
-    while True:
-        held = ~(gone[contacts.i] | gone[contacts.j])
-        degree = np.bincount(contacts.i[held], minlength=n)
-        degree += np.bincount(contacts.j[held], minlength=n)
-        newly = (degree <= threshold) & ~gone
-        if not newly.any():
-            return gone
-        gone |= newly
 
 
 def backbone(packing: Packing, threshold: int) -> Packing:

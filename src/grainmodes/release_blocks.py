@@ -12,9 +12,10 @@ from typing import Protocol
 
 import numpy as np
 
+from grainmodes.contacts import History
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Interaction, interaction
-from grainmodes.packing import History, Packing
+from grainmodes.packing import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.release import Release
 from grainmodes.protocols.release import Run

@@ -25,11 +25,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from grainmodes.contacts import Contacts
 from grainmodes.forces import SIGNS, forces_on_i, is_frictionless, net
 from grainmodes.jacobian import assemble, stiffness_of
 from grainmodes.kernels.laws import Interaction
 from grainmodes.linear import PinnedFactor
-from grainmodes.packing import Contacts, Packing, backbone, find_contacts
+from grainmodes.packing import Packing, backbone, find_contacts
 
 
 @dataclass(frozen=True)

@@ -6,16 +6,11 @@ from dataclasses import asdict
 
 import numpy as np
 
+from grainmodes.contacts import Contacts, History, rattlers
 from grainmodes.dataset.files import Block, BlockError
 from grainmodes.forces import largest, mean_contact_force, net_force, stress
 from grainmodes.kernels.laws import Frictionless, Interaction
-from grainmodes.packing import (
-    Contacts,
-    History,
-    Packing,
-    find_contacts,
-    rattlers,
-)
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.protocols.compression import Trajectory
 from grainmodes.rows import attribute

@@ -8,12 +8,13 @@ import pytest
 import hard
 import naive
 from grainmodes.blocks import compress_block
+from grainmodes.contacts import Contacts
 from grainmodes.dataset.files import Block
 from grainmodes.forces import forces_on_i, sliding
 from grainmodes.jacobian import stiffness_of
 from grainmodes.kernels.laws import Hertz, interaction
 from grainmodes.kernels.springs import kept_displacement
-from grainmodes.packing import Contacts, PackingError, find_contacts
+from grainmodes.packing import PackingError, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.pairs import PairChoices

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 import hard
+from grainmodes.contacts import rattlers
 from grainmodes.kernels.laws import Hertz
-from grainmodes.packing import Packing, find_contacts, rattlers
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.relaxation import rattlers as rattlers_out
 from grainmodes.relaxation.frictionless import relax_fast
 from grainmodes.relaxation.newton import newton

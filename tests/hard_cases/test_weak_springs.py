@@ -10,8 +10,8 @@ import pytest
 import exact
 import hard
 import naive
+from grainmodes.contacts import Contacts
 from grainmodes.jacobian import stiffness_of
-from grainmodes.packing import Contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.rigidity import rigidity

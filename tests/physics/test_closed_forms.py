@@ -19,9 +19,10 @@ Three grains at the corners of a triangle of side r, s = 0, per degree of freedo
 import numpy as np
 import pytest
 
+from grainmodes.contacts import History
 from grainmodes.forces import forces_on_i, net_force
 from grainmodes.jacobian import jacobian, stiffness_of
-from grainmodes.packing import History, Packing, find_contacts
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.spectrum import spectrum
 from specimens import elastic
 

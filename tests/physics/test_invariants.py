@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from grainmodes.contacts import History
 from grainmodes.forces import net_force, stress
 from grainmodes.kernels.laws import interaction
-from grainmodes.packing import History, Packing, find_contacts
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.rigidity import rigidity
 from grainmodes.spectrum import spectrum
 from specimens import (

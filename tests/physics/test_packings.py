@@ -6,9 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import naive
+from grainmodes.contacts import rattlers
 from grainmodes.forces import largest, net, net_force
 from grainmodes.jacobian import jacobian
-from grainmodes.packing import Packing, find_contacts, rattlers
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import StepStrain

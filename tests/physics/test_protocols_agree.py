@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from scipy.stats import ks_2samp
 
+from grainmodes.contacts import rattlers
 from grainmodes.forces import stress
 from grainmodes.kernels.damping import Dashpot
-from grainmodes.packing import Packing, find_contacts, rattlers
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.protocols.compression import advanced, balanced, placed
 from grainmodes.relaxation.dynamics import relax_damped

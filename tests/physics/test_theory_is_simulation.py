@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from grainmodes.contacts import History
 from grainmodes.forces import stress
-from grainmodes.packing import History, Packing, find_contacts
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.step_strain import step_strain
 from grainmodes.relaxation.newton import newton

@@ -7,8 +7,9 @@ below end in the same minimum whatever the order of a sum.
 import numpy as np
 import pytest
 
+from grainmodes.contacts import rattlers
 from grainmodes.forces import stress
-from grainmodes.packing import find_contacts, rattlers
+from grainmodes.packing import find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.protocols.compression import balanced, placed
 from grainmodes.rigidity import rigidity

@@ -7,12 +7,13 @@ import pytest
 import scipy.linalg
 import scipy.sparse as sparse
 
+from grainmodes.contacts import rattlers
 from grainmodes.factorisation import SuperLU, ZeroPivotError
 from grainmodes.forces import largest, net_force
 from grainmodes.kernels.laws import interaction
 from grainmodes.kernels.permutations import odd
 from grainmodes.linear import PinnedFactor
-from grainmodes.packing import find_contacts, nonaffine_motion, rattlers
+from grainmodes.packing import find_contacts, nonaffine_motion
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.quasistatic import first_balance, step_to

@@ -9,10 +9,10 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from grainmodes.close_up_blocks import close_up_block
+from grainmodes.contacts import Contacts
 from grainmodes.dataset.files import Block, write_block
 from grainmodes.kernels.laws import Harmonic, interaction
 from grainmodes.linear import PinnedFactor
-from grainmodes.packing import Contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.event_states import (

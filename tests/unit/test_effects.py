@@ -7,6 +7,7 @@ import pytest
 import scipy.linalg
 
 from grainmodes import forces, jacobian, linear
+from grainmodes.contacts import Contacts, History
 from grainmodes.forces import net_force
 from grainmodes.hessian import effective_hessian
 from grainmodes.kernels.dynamics import integrate
@@ -14,7 +15,7 @@ from grainmodes.kernels.fire import fire
 from grainmodes.kernels.laws import Hertz, interaction
 from grainmodes.kernels.neighbours import find_neighbours
 from grainmodes.kernels.repulsion import add_forces
-from grainmodes.packing import Contacts, History, Packing, find_contacts
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import SpectrumChoices

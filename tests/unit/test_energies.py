@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 import naive
+from grainmodes.contacts import Contacts
 from grainmodes.forces import energy, forces_on_i
 from grainmodes.kernels.energies import contact_energies
 from grainmodes.kernels.laws import interaction
-from grainmodes.packing import Contacts, find_contacts
+from grainmodes.packing import find_contacts
 from specimens import FRICTIONLESS, LAWS, crowd, law_name
 
 OVERLAPS = np.array([1e-6, 0.01, 0.1, 0.3])

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 import naive
+from grainmodes.contacts import History
 from grainmodes.jacobian import assemble, jacobian, stiffness_of
 from grainmodes.kernels.laws import interaction
-from grainmodes.packing import History, Packing, find_contacts
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from specimens import (
     ELASTIC,

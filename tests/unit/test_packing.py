@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import naive
-from grainmodes.packing import History, Packing, PackingError, find_contacts, rattlers
+from grainmodes.contacts import History, rattlers
+from grainmodes.packing import Packing, PackingError, find_contacts
 from specimens import ELASTIC, contacts_and_pairs, crowd, few, pairs_of, reference
 
 UNIT = 2.0**-64

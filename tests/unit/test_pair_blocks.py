@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from grainmodes.contacts import History
 from grainmodes.dataset.files import Block, write_block
 from grainmodes.forces import largest, net_force
 from grainmodes.jacobian import jacobian
 from grainmodes.kernels.laws import Hertz, interaction
-from grainmodes.packing import History, Packing, find_contacts
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.pair_blocks import pairs_block
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.pairs import PairChoices

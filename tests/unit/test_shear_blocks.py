@@ -13,11 +13,12 @@ import pytest
 
 from grainmodes.cli import main
 from grainmodes.cli.keeping import Keeping, fingerprint
+from grainmodes.contacts import History
 from grainmodes.dataset.files import Block, read_block, write_block
 from grainmodes.ensemble.point import merge_blocks
 from grainmodes.forces import largest, net_force
 from grainmodes.kernels.laws import Harmonic, interaction
-from grainmodes.packing import History, Packing, find_contacts
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear import Walk

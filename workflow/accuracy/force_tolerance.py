@@ -25,8 +25,9 @@ import scipy.linalg
 
 from accuracy.diagram import FAILED, Diagram, Row, Sample, Size, apart, of, row, timed
 from accuracy.packings import HERTZ, compressed
+from grainmodes.contacts import rattlers
 from grainmodes.kernels.laws import Frictionless, Interaction, interaction
-from grainmodes.packing import Packing, find_contacts, rattlers
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.frictionless import relax_fast, relax_fire

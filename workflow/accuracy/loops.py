@@ -15,6 +15,7 @@ import numpy as np
 from numba import njit
 
 from accuracy.packings import HERTZ
+from grainmodes.contacts import History
 from grainmodes.kernels.compiler import FLAGS
 from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.dynamics import Grains, Stop, integrate
@@ -22,7 +23,7 @@ from grainmodes.kernels.fire import MIXING, Pace, advance, next_pace, work
 from grainmodes.kernels.laws import interaction
 from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours
 from grainmodes.kernels.repulsion import load
-from grainmodes.packing import History, Packing, find_contacts
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.frictionless import SKIN, STABILITY
 

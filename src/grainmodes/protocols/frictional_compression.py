@@ -31,10 +31,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from grainmodes.contacts import rattlers
 from grainmodes.forces import mean_contact_force
 from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing import Packing, find_contacts, rattlers
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.newton import newton
 from grainmodes.relaxation.result import Relaxed

@@ -24,9 +24,10 @@ from typing import NamedTuple
 import numpy as np
 import scipy.linalg
 
+from grainmodes.contacts import Contacts
 from grainmodes.jacobian import assemble, stiffness_of
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing import Contacts, Packing
+from grainmodes.packing import Packing
 from grainmodes.stability import INERTIA, REAL
 
 SLIPPING, STICKING = 1.0, -1.0

@@ -23,11 +23,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from grainmodes.contacts import History
 from grainmodes.forces import is_frictionless, mean_contact_force
 from grainmodes.kernels.damping import Drag
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.springs import advanced_displacement
-from grainmodes.packing import History, Packing, find_contacts
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.strain import Shear
 from grainmodes.relaxation.balance import Balance
 from grainmodes.relaxation.dynamics import relax_damped

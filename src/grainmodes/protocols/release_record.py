@@ -14,9 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from grainmodes.contacts import Contacts, rattlers
 from grainmodes.forces import forces_on_i, sliding, stress
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing import Contacts, Packing, find_contacts, nonaffine_motion, rattlers
+from grainmodes.packing import Packing, find_contacts, nonaffine_motion
 from grainmodes.relaxation.balance import most_loose
 from grainmodes.relaxation.dynamics import Motion
 from grainmodes.stability import INERTIA

@@ -18,10 +18,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from grainmodes.contacts import Contacts, rattlers
 from grainmodes.forces import is_frictionless, stress
 from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing import Contacts, Packing, find_contacts, rattlers
+from grainmodes.packing import Packing, find_contacts
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.newton import newton

@@ -25,7 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.packing import Contacts
+from grainmodes.contacts import Contacts
 from grainmodes.relaxation.balance import Balance
 
 

@@ -21,9 +21,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from grainmodes.contacts import Contacts
 from grainmodes.forces import SIGNS
 from grainmodes.linear import PinnedFactor
-from grainmodes.packing import Contacts
 
 CHANGED = 0.03
 """Change of the stiffness of a contact, in the largest of all, that is more than small."""

@@ -1,0 +1,97 @@
+"""What touches what in a packing, what the springs between remember, and which grains are rattlers.
+
+| symbol            | name                    | shape, type          | unit    |
+| ----------------- | ----------------------- | -------------------- | ------- |
+| n_ij = r_ij/r_ij  | normal                  | (C, 2) float64       | 1       |
+| r_ij, ξ_ij        | distance, overlap       | (C,) float64         | d       |
+| s_ij, ξ_T,ij      | tangential_displacement | (C,) float64 or None | d       |
+
+Friction that was never loaded is `None`: it is neither stored nor computed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """Touching pairs, i > j, sorted by (i, j); n points from j to i."""
+
+    i: np.ndarray
+    j: np.ndarray
+    normal: np.ndarray
+    distance: np.ndarray
+    overlap: np.ndarray
+    tangential_displacement: np.ndarray | None = None
+
+    @property
+    def tangent(self) -> np.ndarray:
+        """t = (n_y, −n_x), shape (C, 2)."""
+        return np.stack([self.normal[:, 1], -self.normal[:, 0]], axis=1)
+
+    @property
+    def displacement(self) -> np.ndarray:
+        """s of every contact, zero where friction was never loaded; shape (C,)."""
+        s = self.tangential_displacement
+        return np.zeros(len(self.i)) if s is None else s
+
+    def among(self, keep: np.ndarray) -> Contacts:
+        """The contacts between the grains of a (N,) mask, in their new numbers."""
+        if keep.all():
+            return self
+        held, i, j = _among(keep, self.i, self.j)
+        s = self.tangential_displacement
+        return Contacts(
+            i,
+            j,
+            self.normal[held],
+            self.distance[held],
+            self.overlap[held],
+            None if s is None else s[held],
+        )
+
+
+@dataclass(frozen=True)
+class History:
+    """Contacts with their tangential displacement s: pairs i > j sorted by (i, j)."""
+
+    i: np.ndarray
+    j: np.ndarray
+    tangential_displacement: np.ndarray
+
+    @classmethod
+    def of(cls, i: np.ndarray, j: np.ndarray, tangential_displacement: np.ndarray) -> History:
+        """The history of pairs in any order; s does not change sign when i and j are swapped."""
+        high, low = np.maximum(i, j), np.minimum(i, j)
+        order = np.lexsort((low, high))
+        return cls(high[order], low[order], np.asarray(tangential_displacement)[order])
+
+    def among(self, keep: np.ndarray) -> History:
+        """The contacts between the grains of a (N,) mask, in their new numbers."""
+        held, i, j = _among(keep, self.i, self.j)
+        return History(i, j, self.tangential_displacement[held])
+
+
+def _among(
+    keep: np.ndarray, i: np.ndarray, j: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Which pairs stand between the grains of a mask, and these with the grains renumbered."""
+    held = keep[i] & keep[j]
+    number = np.cumsum(keep, dtype=np.int32) - 1
+    return held, number[i[held]], number[j[held]]
+
+
+def rattlers(contacts: Contacts, n: int, threshold: int) -> np.ndarray:
+    """(N,) bool: grains of at most `threshold` contacts, removed until none is left: A, App. E."""
+    gone = np.zeros(n, bool)
+    while True:
+        held = ~(gone[contacts.i] | gone[contacts.j])
+        degree = np.bincount(contacts.i[held], minlength=n)
+        degree += np.bincount(contacts.j[held], minlength=n)
+        newly = (degree <= threshold) & ~gone
+        if not newly.any():
+            return gone
+        gone |= newly
