@@ -40,7 +40,7 @@ from specimens import MINIMAL, elastic, reference
 
 WEAK, SLIPPING = ContactLaw(kt=1e-2), ContactLaw("hertz", "smoothed_coulomb", 2 / 7, 10.0)
 COARSE, SHEAR = Compression(phi_step=1e-2), Shear(2e-3, 1e-3, 1e-4)
-SHORT = Release(duration=0.01, records=60, dampings=(), spectra=0)
+SHORT = Release(duration=0.01, least_time=0.0, records=60, dampings=(), spectra=0)
 MODES = SpectrumChoices()
 
 

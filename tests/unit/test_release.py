@@ -191,7 +191,7 @@ def test_growth_and_frequency_are_those_of_the_pair_to_order_dt_squared(quantity
 
 def test_round_off_alone_grows_alike():
     start, _, _ = state()
-    run = released(Release(kick=0.0, duration=26.0, records=900, spectra=0))
+    run = released(Release(kick=0.0, duration=26.0, least_time=0.0, records=900, spectra=0))
     assert series(run, "mean_square_displacement")[:30].max() < 1e-29
     used = window(run)
     law = fitted(
@@ -297,6 +297,18 @@ def test_a_state_that_leaves_too_slowly_is_refused():
     start, _, rule = state()
     with pytest.raises(ArithmeticError, match="omega_i"):
         Run.begin(start, rule, Release(max_steps=1000))
+
+
+def test_only_a_run_without_damping_goes_on_to_the_end_of_its_plateau():
+    choices = Release(duration=0.05, least_time=400.0, records=10, spectra=5)
+    free, damped = released(choices), released(choices, 0.1 * state()[0].rate)
+    growth = choices.duration / state()[0].rate
+    assert series(damped, "time")[-1] == pytest.approx(growth, rel=0.02)
+    time = series(free, "time")
+    assert 400.0 <= time[-1] < 400.0 + 2.0 * growth
+    assert np.isclose(time[:, None], np.linspace(0.0, time[-1], 11)).any(axis=0).all()
+    assert np.isclose(time[:, None], np.linspace(0.0, growth, 11), atol=0.5).any(axis=0).all()
+    assert len(free.spectra) == 6
 
 
 def test_momentum_is_kept_to_round_off():

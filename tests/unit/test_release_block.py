@@ -22,7 +22,7 @@ from grainmodes.protocols.release import FRAMES, Run
 from grainmodes.release_blocks import release_block, unstable_of
 from released import pairs_block, state
 
-CHOICES = Release(duration=16.0, dampings=(1.0, 4.0), records=400, spectra=4)
+CHOICES = Release(duration=16.0, least_time=0.0, dampings=(1.0, 4.0), records=400, spectra=4)
 MAIN = "import sys; from grainmodes.cli import main; sys.exit(main(sys.argv[1:]))"
 
 
@@ -111,7 +111,7 @@ def test_a_point_keeps_the_numbers_of_runs_and_no_records(block):
 
 
 def command(folder, name: str) -> list[str]:
-    release = {"duration": 5.0, "dampings": [1.0], "records": 300, "spectra": 3}
+    release = {"duration": 5.0, "least_time": 0.0, "dampings": [1.0], "records": 300, "spectra": 3}
     law = {"tangential": "smoothed_coulomb", "friction_coefficient": 10.0}
     settings = json.dumps({"contact_law": law, "protocol": {"release": release}})
     kt = repr(state()[1].kt)

@@ -4,7 +4,7 @@ Spectra follow the rules by which the stages choose a method: LAPACK up to a siz
 at the edges of bins, or windows of eigenpairs. ψ^R of a bin is counted in `substeps` cells: each at
 its end on the diagonal and at two corners, and pairs of cells once more at two, four counts a cell.
 p takes the eigenpairs of a bin, at most `modes_per_bin`. A shear is priced per step of 1e-4,
-complex pairs per state, a release per run of 80 / ω_i in steps of 0.1 t_0.
+complex pairs per state, a release per million steps of all its runs.
 """
 
 from __future__ import annotations
@@ -30,6 +30,9 @@ from grainmodes.parameters.spectra import (
 
 USUAL_STEP = 1e-4
 """The step of strain in which a shear is priced, with the brackets of its events."""
+
+USUAL_RATE = 0.02
+"""ω_i, in 1/t_0, of a state that is released."""
 
 
 def work(
@@ -58,10 +61,10 @@ def work(
 
 
 def _runs(choices: Release) -> float:
-    """Runs of a release in units of the usual one."""
-    usual = Release()
-    steps = choices.duration / choices.time_step / (usual.duration / usual.time_step)
-    return steps * (1 + len(choices.dampings))
+    """Millions of steps of all runs of a release."""
+    growth = choices.duration / USUAL_RATE
+    time = max(growth, choices.least_time) + len(choices.dampings) * growth
+    return 1e-6 * time / choices.time_step
 
 
 def degrees_of_freedom(n: int, kt: float) -> int:

@@ -4,7 +4,8 @@
 
 Velocity Verlet in pieces from look to look. It is looked at
 
-    in even intervals, `records` of them, and before that as often as time grows by a tenth;
+    in even intervals, `records` of them while it grows and as many, longer ones to the end of the
+    plateau; before the first as often as time grows by a tenth;
     closely, once M has reached 1e-16 d²: over `TURNS` turns of 2π/ω_r, to see them, and
     `FRAMES` times within about 1.5 / ω_i, each a 24th of a turn further than the one before: a
     film in which the spirals turn, however many turns the growth takes (C, Fig. 5); less than a
@@ -16,6 +17,7 @@ Verlet turns a mode of frequency Ω at (2/Δt) arcsin(ΩΔt/2), so that ω_i is 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -85,7 +87,7 @@ class Run:
     @property
     def last(self) -> int:
         """The step with which it ends."""
-        return self._interval * self.choices.records
+        return self._later * self.choices.records
 
     @property
     def done(self) -> bool:
@@ -112,12 +114,20 @@ class Run:
 
     @property
     def _interval(self) -> int:
-        """Steps between two even looks."""
+        """Steps between two even looks during the growth."""
         whole = self.choices.duration / (self.start.rate * self.choices.time_step)
         return max(1, round(whole / self.choices.records))
 
+    @property
+    def _later(self) -> int:
+        """The same from then on, a multiple of them."""
+        least = 0.0 if self.drag else self.choices.least_time / self.choices.time_step
+        return self._interval * max(1, math.ceil(least / (self._interval * self.choices.records)))
+
     def _next(self) -> int:
-        even = (self.steps // self._interval + 1) * self._interval
+        growing = self.steps < self._interval * self.choices.records
+        interval = self._interval if growing else self._later
+        even = (self.steps // interval + 1) * interval
         return min([even, self.steps + max(1, self.steps // 10), *(self.close or [])[:1]])
 
     def _look(self) -> None:
@@ -135,7 +145,7 @@ class Run:
             self.spectra.append((self.steps, found))
 
     def _wants_spectrum(self) -> bool:
-        every = self._interval * max(1, self.choices.records // max(self.choices.spectra, 1))
+        every = self._later * max(1, self.choices.records // max(self.choices.spectra, 1))
         asked = self.choices.spectra > 0 and not self.drag
         return asked and 3 * self.start.packing.n <= MOST_FOR_SPECTRA and self.steps % every == 0
 

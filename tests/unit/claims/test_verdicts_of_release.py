@@ -77,3 +77,5 @@ def test_the_depth_and_the_run_in_between_are_told():
     assert "M and A swing by 0.2" in found["C5"].explanation
     assert "η_0 = 1 ω_i" in found["C7"].explanation
     assert "at 0.5" in found["C7"].explanation
+    assert "At η_0 = 0 ω_i, φ = 0.9" in found["C7"].explanation
+    assert "6 of 6 come to a second instability" in found["C7"].explanation

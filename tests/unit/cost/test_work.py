@@ -56,13 +56,13 @@ def test_a_shear_is_priced_by_its_strain():
 
 
 @pytest.mark.parametrize(
-    ("choices", "runs"),
+    ("choices", "millions"),
     [
-        (Release(), 6),
-        (Release(duration=40.0, dampings=(1.0,)), 1),
-        (Release(time_step=0.05, dampings=()), 2),
+        (Release(), 3.2),
+        (Release(duration=40.0, least_time=0.0, dampings=(1.0,)), 0.04),
+        (Release(time_step=0.05, dampings=()), 6),
     ],
 )
-def test_a_release_is_priced_by_its_runs_and_their_steps(choices, runs):
+def test_a_release_is_priced_by_the_steps_of_its_runs(choices, millions):
     found = work("release", "none", 500, 1.0, Protocol(release=choices), TABLE)
-    assert found == {"release": pytest.approx(runs)}
+    assert found == {"release": pytest.approx(millions)}

@@ -27,7 +27,7 @@ from pictures import numbers_of
 from released import pairs_block, state
 
 OF_RELEASES = [name for name, figure in FIGURES.items() if figure.source == "release"]
-CHOICES = Release(duration=22.0, dampings=(1.0, 4.0), records=300, spectra=4)
+CHOICES = Release(duration=22.0, least_time=0.0, dampings=(1.0, 4.0), records=300, spectra=4)
 
 
 @pytest.fixture(scope="module")

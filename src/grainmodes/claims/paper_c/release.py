@@ -145,15 +145,21 @@ def damping(ensemble) -> Outcome:
     """A damping η_0 above ω_i suppresses the growth, a smaller one does not (Fig. 11).
 
     log10 of the largest M of every run, in d². Linear theory lets the pair grow at ω_i - η_0/2, so
-    that runs with ω_i ≤ η_0 ≤ 2ω_i stand between and are not judged.
+    that runs with ω_i ≤ η_0 ≤ 2ω_i stand between and are not judged. Noted is which runs come to a
+    second instability: those that grow may yet come to rest nearby.
 
     Criterion: above -8 for η_0 < ω_i, below -8 for η_0 > 2ω_i.
     """
     parts, notes = [], []
-    for where, of in released(ensemble, "damping", "largest_square", "displacement_rate"):
+    names = ("damping", "largest_square", "displacement_rate", "second_time")
+    for where, of in released(ensemble, *names):
         ratio = np.nanmean(of["damping"] / of["rate_linear"][:, None], axis=0)
+        known = np.isfinite(of["rate_linear"]).sum()
+        came = np.isfinite(of["second_time"]).sum(axis=0)
         for run, times in enumerate(ratio):
             name = f"η_0 = {times:.3g} ω_i, {where}"
+            if times < 2.0 + SAME:
+                notes.append(f"At {name} {came[run]} of {known} come to a second instability.")
             largest = mean(np.log10(of["largest_square"][:, run]))
             if times < 1.0 - SAME:
                 parts.append(Part(name, largest, low=SLIGHT))
