@@ -55,9 +55,10 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
         label = f"{float(f'{damping / rate:.3g}'):g}"
         square.semilogy(rate * of["time"], of["m"], color=colour, lw=0.7, label=label)
         pressure.plot(rate * of["time"], of["pressure"], color=colour, lw=0.7)
-    square.legend(title=r"$\eta_0 / \omega_i$", loc="center right")
-    square.set(xlabel=r"$\omega_i t$", ylabel="$M / d^2$")
-    pressure.set(xlabel=r"$\omega_i t$", ylabel=appearance.modulus_label("$P$", table))
+    square.legend(title=r"$\eta_0 / \omega_i$", loc="upper left")
+    square.set(xscale="log", xlabel=r"$\omega_i t$", ylabel="$M / d^2$")
+    label = appearance.modulus_label("$P$", table)
+    pressure.set(xscale="log", xlabel=r"$\omega_i t$", ylabel=label)
     _rates(rates, table.drop_duplicates("damping"), rate)
     for place, name in enumerate(("mean square displacement", "pressure", "growth rate")):
         appearance.name_panel((square, pressure, rates)[place], place, name)

@@ -13,6 +13,10 @@ from grainmodes.figures.field_rows import joined
 from grainmodes.figures.release_rows import COLUMNS as RUN
 from grainmodes.figures.release_rows import samples
 from grainmodes.figures.selection import MOST_CURVES, Options
+from grainmodes.protocols.growth import LINEAR
+
+SHOWN = 1.3
+"""How long "while it grows" is shown, in units of the end of the growth."""
 
 QUANTITIES = {
     "time": "time",
@@ -27,6 +31,7 @@ COLUMNS = {
     "m": ("d^2", "mean square displacement M"),
     "pressure": ("k_N", "pressure"),
     "stress_xy": ("k_N", "stress sigma_xy"),
+    "end_time": ("t_0", "when M leaves its law"),
 }
 
 
@@ -37,7 +42,10 @@ def table(releases: list[Block], options: Options) -> pd.DataFrame:
         ValueError: no sample has the n, phi or kt asked for.
     """
     shown = samples(releases, options)[:MOST_CURVES]
-    return joined((sample.records(QUANTITIES) for sample in shown), COLUMNS)
+    return joined(
+        (sample.records(QUANTITIES).assign(end_time=sample.of("end_time")[0]) for sample in shown),
+        COLUMNS,
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
@@ -69,18 +77,20 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
 
 
 def _growing(axes: Axes, of: pd.DataFrame) -> None:
-    """|P − P(0)| against ω_i t, and e^(ω_i t) below its largest values."""
-    of = of[(of["time"] > 0.0) & (of["m"] < 1e-6)]
+    """|P − P(0)| against ω_i t until a little after the growth, and e^(ω_i t) on its peaks."""
+    end = np.nan_to_num(of["end_time"].iloc[0], nan=np.inf)
+    of = of[(of["time"] > 0.0) & (of["time"] < SHOWN * end)]
     time, start = of["rate"] * of["time"], of["pressure"].iloc[0]
     change = (of["pressure"] - start).abs() / start
     axes.semilogy(time, change, ".", color="k", ms=1.6)
-    top = change[of["m"] < 1e-8].max()
-    peak = time[change[of["m"] < 1e-8].idxmax()]
-    line = top * np.exp(time - peak)
+    growing = of["m"] < LINEAR[1]
+    peak = change[growing].idxmax()
+    line = change[peak] * np.exp(time - time[peak])
     axes.semilogy(time, line, color=appearance.TRANSLATIONAL, label=r"$e^{\omega_i t}$")
-    seen = change[change > 0.0]
     axes.set(
-        xlabel=r"$\omega_i t$", ylabel="$|P - P(0)| / P(0)$", ylim=(seen.min(), 5 * line.max())
+        xlabel=r"$\omega_i t$",
+        ylabel="$|P - P(0)| / P(0)$",
+        ylim=(change[change > 0.0].min(), 10.0 * change.max()),
     )
     appearance.name_panel(axes, 3, f"pressure while it grows, seed {of['seed'].iloc[0]}")
     axes.legend(loc="upper left")

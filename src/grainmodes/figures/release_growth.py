@@ -13,6 +13,7 @@ from grainmodes.figures.field_rows import joined
 from grainmodes.figures.release_rows import COLUMNS as RUN
 from grainmodes.figures.release_rows import Sample, caption, one
 from grainmodes.figures.selection import Options
+from grainmodes.protocols.release import VISIBLE
 
 CLOSE_TURNS = 6.0
 """Turns of 2π/ω_r that the upper panels show."""
@@ -51,8 +52,7 @@ def _rows(sample: Sample) -> pd.DataFrame:
     for column, name in (("growth", "rate"), ("frequency", "frequency")):
         fitted = sample.of(f"displacement_{name}")[0]
         rows[f"{column}_error"] = fitted / sample.of(f"{name}_linear") - 1.0
-    frames = sample.of("frame_time")
-    rows["close_from"] = frames[0] if len(frames) else np.nan
+    rows["close_from"] = rows["time"].where(rows["m"] > VISIBLE).min()
     return rows.assign(end_time=sample.of("end_time")[0])
 
 
@@ -89,15 +89,14 @@ def _percent(table: pd.DataFrame, column: str) -> str:
 def _close(axes: Axes, table: pd.DataFrame, column: str) -> float:
     """Some turns, in units of a power of ten; returns it."""
     turn = 2.0 * np.pi / table["frequency"].iloc[0]
-    last = table["close_from"].iloc[0]
-    near = table[table["time"].between(last - CLOSE_TURNS * turn, last)]
-    start = near["time"].min()
+    start = table["close_from"].iloc[0]
+    near = table[table["time"].between(start, start + CLOSE_TURNS * turn)]
     x = near["time"] - start
     decade = 10.0 ** np.floor(np.log10(near[column].max()))
     axes.plot(x, near[column] / decade, "o", color="k", ms=2.5, mfc="none", label="dynamics")
     axes.plot(x, near[f"{column}_law"] / decade, color=appearance.TRANSLATIONAL, label="law")
     axes.set(xlabel=rf"$(t - {start:.0f}\,t_0) / t_0$", ylim=(0.0, None))
-    axes.legend(loc="lower right")
+    axes.legend(loc="upper left")
     return float(decade)
 
 
