@@ -1,7 +1,7 @@
 """From a configuration file to a validated scene.
 
-A configuration is a dictionary with the keys of `config.schema.yaml`. `complete` fills in the
-defaults, the schema and then `rules` judge it, and what passes becomes a frozen `Scene`.
+A configuration is a dictionary with the keys of `schemas/config.schema.yaml`. `complete` fills in
+the defaults, the schema and then `rules` judge it, and what passes becomes a frozen `Scene`.
 """
 
 from __future__ import annotations

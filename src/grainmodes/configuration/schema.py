@@ -1,7 +1,8 @@
 """A scene against the schema: missing keys get their default, each mistake becomes one sentence.
 
-`config.schema.yaml` says type, range, unit and meaning of every key, and its default where a key
-may be absent; a unit test holds these defaults against those of `grainmodes.parameters`.
+`schemas/config.schema.yaml`, with a file of its own for every longer block, says type, range, unit
+and meaning of every key, and its default where a key may be absent; a unit test holds these
+defaults against those of `grainmodes.parameters`.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from pathlib import Path
 
 import yaml
 
-PATH = Path(__file__).with_name("config.schema.yaml")
+FOLDER = Path(__file__).with_name("schemas")
 
 TYPES = {
     "integer": "a whole number",
@@ -27,8 +28,7 @@ TYPES = {
 @cache
 def schema() -> dict:
     """The schema of a scene, as plain dictionaries; callers do not change it."""
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-    return yaml.load(PATH.read_text(encoding="utf-8"), Loader=loader)
+    return _in_full({"$ref": "config.schema.yaml"})
 
 
 def complete(value, rule: dict):
@@ -69,6 +69,18 @@ def allowed(rule: dict) -> str:
         kind = kind.replace("whole", "whole even")
     unit = f" ({rule['unit']})" if "unit" in rule else ""
     return f"{kind}{_range(rule)}{unit}"
+
+
+def _in_full(rule):
+    """A part of the schema with the file that `$ref` names in the place of every reference."""
+    if isinstance(rule, list):
+        return [_in_full(item) for item in rule]
+    if not isinstance(rule, dict):
+        return rule
+    if "$ref" in rule:
+        loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+        return _in_full(yaml.load((FOLDER / rule["$ref"]).read_bytes(), Loader=loader))
+    return {key: _in_full(item) for key, item in rule.items()}
 
 
 def _with_defaults(value: dict, rules: dict) -> dict:

@@ -11,12 +11,9 @@ from grainmodes.dataset.files import Block
 from grainmodes.figures import appearance
 from grainmodes.figures.field_rows import joined
 from grainmodes.figures.release_rows import COLUMNS as RUN
-from grainmodes.figures.release_rows import samples
+from grainmodes.figures.release_rows import growing, samples
 from grainmodes.figures.selection import MOST_CURVES, Options
 from grainmodes.protocols.growth import LINEAR
-
-SHOWN = 1.3
-"""How long "while it grows" is shown, in units of the end of the growth."""
 
 QUANTITIES = {
     "time": "time",
@@ -78,13 +75,11 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
 
 def _growing(axes: Axes, of: pd.DataFrame) -> None:
     """|P − P(0)| against ω_i t until a little after the growth, and e^(ω_i t) on its peaks."""
-    end = np.nan_to_num(of["end_time"].iloc[0], nan=np.inf)
-    of = of[(of["time"] > 0.0) & (of["time"] < SHOWN * end)]
+    of = growing(of)
     time, start = of["rate"] * of["time"], of["pressure"].iloc[0]
     change = (of["pressure"] - start).abs() / start
     axes.semilogy(time, change, ".", color="k", ms=1.6)
-    growing = of["m"] < LINEAR[1]
-    peak = change[growing].idxmax()
+    peak = change[of["m"] < LINEAR[1]].idxmax()
     line = change[peak] * np.exp(time - time[peak])
     axes.semilogy(time, line, color=appearance.TRANSLATIONAL, label=r"$e^{\omega_i t}$")
     axes.set(

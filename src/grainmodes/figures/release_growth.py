@@ -11,7 +11,7 @@ from grainmodes.dataset.files import Block
 from grainmodes.figures import appearance
 from grainmodes.figures.field_rows import joined
 from grainmodes.figures.release_rows import COLUMNS as RUN
-from grainmodes.figures.release_rows import Sample, caption, one
+from grainmodes.figures.release_rows import Sample, caption, growing, one
 from grainmodes.figures.selection import Options
 from grainmodes.protocols.release import VISIBLE
 
@@ -101,8 +101,7 @@ def _close(axes: Axes, table: pd.DataFrame, column: str) -> float:
 
 
 def _whole(axes: Axes, table: pd.DataFrame, column: str) -> None:
-    table = table[table["time"] > 0.0]
-    shown = table[table["time"] < 1.3 * np.nan_to_num(table["end_time"].iloc[0], nan=np.inf)]
+    shown = growing(table)
     time = shown["rate"] * shown["time"]
     axes.semilogy(time, shown[column], ".", color="k", ms=1.6, label="dynamics")
     edge = shown[column].max()

@@ -25,6 +25,9 @@ COLUMNS = {
 }
 """Columns that say which run of which sample a row is about."""
 
+SHOWN = 1.3
+"""How long a growth is shown, in units of its end."""
+
 BEFORE, AFTER = appearance.ROTATIONAL, appearance.TRANSLATIONAL
 """Colours of the start of a run and of its end."""
 
@@ -78,6 +81,12 @@ def one(blocks: list[Block], options: Options) -> list[Sample]:
         return []
     seed = first_or(options.seed, np.array([sample.seed for sample in found]), "seed")
     return [sample for sample in found if sample.seed == seed]
+
+
+def growing(table: pd.DataFrame) -> pd.DataFrame:
+    """The records of one run until a little after the end of its growth; all if it has none."""
+    end = np.nan_to_num(table["end_time"].iloc[0], nan=np.inf)
+    return table[(table["time"] > 0.0) & (table["time"] < SHOWN * end)]
 
 
 def caption(table: pd.DataFrame, *parts: str) -> str:
