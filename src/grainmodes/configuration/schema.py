@@ -73,8 +73,6 @@ def allowed(rule: dict) -> str:
 
 def _in_full(rule):
     """A part of the schema with the file that `$ref` names in the place of every reference."""
-    if isinstance(rule, list):
-        return [_in_full(item) for item in rule]
     if not isinstance(rule, dict):
         return rule
     if "$ref" in rule:

@@ -77,5 +77,12 @@ def test_the_depth_and_the_run_in_between_are_told():
     assert "M and A swing by 0.2" in found["C5"].explanation
     assert "η_0 = 1 ω_i" in found["C7"].explanation
     assert "at 0.5" in found["C7"].explanation
-    assert "At η_0 = 0 ω_i, φ = 0.9" in found["C7"].explanation
-    assert "6 of 6 come to a second instability" in found["C7"].explanation
+
+
+def test_which_runs_come_to_a_second_instability_is_told():
+    ensemble = claimed_release.ensemble()
+    second = ensemble["release_second_time"]
+    ensemble["release_second_time"] = second.where(second["damping"] == 0)
+    told = verdicts(ensemble)["C7"].explanation
+    for times, came in ((0, 6), (0.1, 0), (1, 0)):
+        assert f"At η_0 = {times} ω_i, φ = 0.9, κ = 1 {came} of 6 come to a second" in told

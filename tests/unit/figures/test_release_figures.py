@@ -2,6 +2,7 @@
 
 import matplotlib.image
 import numpy as np
+import pandas as pd
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from PIL import Image
@@ -19,6 +20,7 @@ from grainmodes.figures import (
     release_spectrum,
     release_spirals,
 )
+from grainmodes.figures.release_rows import growing
 from grainmodes.figures.selection import Options
 from grainmodes.parameters.figures import FIGURES
 from grainmodes.parameters.release import Release
@@ -67,6 +69,12 @@ def test_growth_shows_records_and_the_laws_through_them(release):
     for column in ("m", "a"):
         assert_allclose(linear[f"{column}_law"], linear[column], rtol=0.02)
     assert abs(rows["growth_error"].iloc[0]) < 0.01
+
+
+def test_a_growth_is_shown_until_a_little_after_its_end():
+    table = pd.DataFrame({"time": np.arange(0.0, 30.0), "end_time": 10.0})
+    assert_array_equal(growing(table)["time"], np.arange(1.0, 13.0))
+    assert len(growing(table.assign(end_time=np.nan))) == 29
 
 
 def test_spirals_end_where_the_film_does(release):
