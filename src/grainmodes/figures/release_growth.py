@@ -14,9 +14,10 @@ from grainmodes.figures.release_rows import COLUMNS as RUN
 from grainmodes.figures.release_rows import Sample, caption, growing, one
 from grainmodes.figures.selection import Options
 from grainmodes.protocols.release import VISIBLE
+from grainmodes.protocols.release_fate import linear
 
 CLOSE_TURNS = 6.0
-"""Turns of 2π/ω_r that the upper panels show."""
+"""Turns of 2π/ω_r that the upper panels show, if M is within the range of the fit so long."""
 
 QUANTITIES = {"m": ("displacement", "$M$", "$d^2$"), "a": ("rotation", "$A$", r"$\mathrm{rad}^2$")}
 """Column → the name of its law, its symbol and its unit."""
@@ -90,7 +91,8 @@ def _close(axes: Axes, table: pd.DataFrame, column: str) -> float:
     """Some turns, in units of a power of ten; returns it."""
     turn = 2.0 * np.pi / table["frequency"].iloc[0]
     start = table["close_from"].iloc[0]
-    near = table[table["time"].between(start, start + CLOSE_TURNS * turn)]
+    near = table[linear(table["m"].to_numpy())]
+    near = near[near["time"].between(start, start + CLOSE_TURNS * turn)]
     x = near["time"] - start
     decade = 10.0 ** np.floor(np.log10(near[column].max()))
     axes.plot(x, near[column] / decade, "o", color="k", ms=2.5, mfc="none", label="dynamics")
