@@ -1,5 +1,5 @@
 """One thread, and a cache of compiled kernels that belongs to the code under test."""
 
-from grainmodes.environment import prepare
+from grainmodes.runtime.environment import prepare
 
 prepare()

@@ -12,14 +12,11 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from grainmodes import blocks
-from grainmodes.close_up_blocks import close_up_block
+from example_packings import MINIMAL, elastic, reference
 from grainmodes.dataset.files import Block, BlockError, read_block
-from grainmodes.field_blocks import fields_block
-from grainmodes.forces import largest, net_force
 from grainmodes.kernels.laws import Hertz
-from grainmodes.packing import find_contacts
-from grainmodes.pair_blocks import pairs_block
+from grainmodes.packing.forces import largest, net_force
+from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.pairs import PairChoices
@@ -27,16 +24,19 @@ from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import Shear, StepStrain
-from grainmodes.probes import probes_block
-from grainmodes.release_blocks import release_block
-from grainmodes.rows import block_of
-from grainmodes.samples import packed
-from grainmodes.shear_blocks import shear_block
-from grainmodes.spectrum_blocks import hessian_block, rattlers_block, spectrum_block
-from grainmodes.variant_blocks import variants_block
+from grainmodes.stages import packings as stages
+from grainmodes.stages.claim_diagnostics import probes_block
+from grainmodes.stages.event_detail import close_up_block
+from grainmodes.stages.fields import fields_block
+from grainmodes.stages.law_comparison import variants_block
+from grainmodes.stages.pairs import pairs_block
+from grainmodes.stages.release import release_block
+from grainmodes.stages.rows import block_of
+from grainmodes.stages.samples import packed
+from grainmodes.stages.shear import shear_block
+from grainmodes.stages.spectrum import hessian_block, rattlers_block, spectrum_block
 from released import pairs_block as unstable_states
 from released import state
-from specimens import MINIMAL, elastic, reference
 
 WEAK, SLIPPING = ContactLaw(kt=1e-2), ContactLaw("hertz", "smoothed_coulomb", 2 / 7, 10.0)
 COARSE, SHEAR = Compression(phi_step=1e-2), Shear(2e-3, 1e-3, 1e-4)
@@ -52,7 +52,7 @@ def packings() -> Block:
 
 @cache
 def checkpoints() -> Block:
-    return blocks.compress_block(16, range(2), 0.7, COARSE, "hertz", None)
+    return stages.compress_block(16, range(2), 0.7, COARSE, "hertz", None)
 
 
 @cache
@@ -90,16 +90,16 @@ def of_packings(made) -> Stage:
 STAGES = {
     "compress": Stage(
         checkpoints,
-        lambda of: blocks.compress_block(16, range(2), 0.71, COARSE, "hertz", of),
+        lambda of: stages.compress_block(16, range(2), 0.71, COARSE, "hertz", of),
         (*GRAINS, "phi_jamming"),
     ),
     "pack": Stage(
         checkpoints,
-        lambda of: blocks.packing_block(of, 0.71, COARSE, "hertz"),
+        lambda of: stages.packing_block(of, 0.71, COARSE, "hertz"),
         (*GRAINS, "phi_jamming"),
     ),
-    "rigidity": of_packings(lambda of: blocks.rigidity_block(of, WEAK, Rattlers())),
-    "step strain": of_packings(lambda of: blocks.step_strain_block(of, WEAK, StepStrain())),
+    "rigidity": of_packings(lambda of: stages.rigidity_block(of, WEAK, Rattlers())),
+    "step strain": of_packings(lambda of: stages.step_strain_block(of, WEAK, StepStrain())),
     "spectrum": of_packings(lambda of: spectrum_block(of, WEAK, Rattlers(), "modes", MODES)),
     "rattlers": of_packings(lambda of: rattlers_block(of, WEAK, "modes", MODES)),
     "hessian": of_packings(lambda of: hessian_block(of, WEAK, Rattlers(), MODES)),

@@ -5,25 +5,25 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import hard
 import naive
-from grainmodes.blocks import compress_block
-from grainmodes.contacts import Contacts
+import naive_failures
+from example_packings import crowd, crystal, elastic, quenched
 from grainmodes.dataset.files import Block
-from grainmodes.forces import forces_on_i, sliding
-from grainmodes.jacobian import stiffness_of
 from grainmodes.kernels.laws import Hertz, interaction
 from grainmodes.kernels.springs import kept_displacement
-from grainmodes.packing import PackingError, find_contacts
+from grainmodes.packing.contacts import Contacts
+from grainmodes.packing.forces import forces_on_i, sliding
+from grainmodes.packing.jacobian import stiffness_of
+from grainmodes.packing.state import PackingError, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.exceptional_points import COALESCENCE, ExceptionalPoint
-from grainmodes.protocols.pair_tracking import PairWalk
+from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, ExceptionalPoint
+from grainmodes.protocols.pair_tracking.tracking import PairWalk
 from grainmodes.relaxation.frictionless import relax_fast
-from grainmodes.spectrum import problem, windows
-from specimens import crowd, crystal, elastic, quenched
+from grainmodes.spectrum import problem, spectrum_slicing
+from grainmodes.stages.packings import compress_block
 
 
 def test_two_grains_at_one_place_have_no_normal():
@@ -57,10 +57,10 @@ def test_a_crystal_has_every_eigenvalue_as_often_as_it_is_counted():
     shift = of.shift()
     low, high = 0.05, 0.35
     modes = shift.to(high).count - shift.to(low).count
-    values, vectors = hard.eigenpairs_near(shift, 0.2, 60, 1)
+    values, vectors = naive_failures.eigenpairs_near(shift, 0.2, 60, 1)
     sound = np.linalg.norm(of.matrix @ vectors - vectors * values, axis=0) < 1e-8
     assert np.count_nonzero(sound & (values > low) & (values < high)) < 0.5 * modes
-    found = windows.eigenpairs(shift, windows.Window(low, high, modes))
+    found = spectrum_slicing.eigenpairs(shift, spectrum_slicing.Window(low, high, modes))
     lapack = np.linalg.eigvalsh(of.matrix.toarray())
     inside = lapack[(lapack >= low) & (lapack < high)]
     np.testing.assert_allclose(found.values, inside, atol=1e-14)

@@ -6,19 +6,19 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-import hard
-from grainmodes.blocks import compress_block, packing_block
+import naive_failures
+from example_packings import elastic, pairs_of, quenched
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Hertz
-from grainmodes.packing import Packing, PackingError, find_contacts
+from grainmodes.packing.state import Packing, PackingError, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.strain import Shear, StepStrain
-from grainmodes.protocols.compression import advanced, balanced, placed
-from grainmodes.protocols.shear import Walk
-from grainmodes.protocols.step_strain import step_strain
+from grainmodes.protocols.compression.trajectory import advanced, balanced, placed
+from grainmodes.protocols.shear.run import Walk
+from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation.balance import Balance
-from grainmodes.rigidity import rigidity
-from specimens import elastic, pairs_of, quenched
+from grainmodes.response.moduli import rigidity
+from grainmodes.stages.packings import compress_block, packing_block
 
 COARSE = Compression(phi_step=1e-3)
 
@@ -29,7 +29,7 @@ def test_a_box_that_holds_a_grain_twice_is_refused(n):
     sites, side = np.array([[0.0, 0.0], [0.5, 0.0], [0.0, 0.5], [0.5, 0.5]])[:n], 1.9
     lattice = Packing.from_positions(2.1 * sites, np.ones(n), 2.1)
     small = replace(lattice, box_length=side)
-    assert 2 * len(hard.nearest_image(small)) == len(pairs_of(small))
+    assert 2 * len(naive_failures.nearest_image(small)) == len(pairs_of(small))
     with pytest.raises(PackingError, match="meets two images of another"):
         Packing.from_positions(side * sites, np.ones(n), side)
     with pytest.raises(PackingError, match="meets two images of another"):

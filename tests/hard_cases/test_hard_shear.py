@@ -6,24 +6,24 @@ import numpy as np
 import pytest
 
 import naive_dynamics as slow
-from grainmodes.blocks import step_strain_block
-from grainmodes.forces import energy, net_force, stress
+from example_packings import MINIMAL, crowd, pairs_of, reference
 from grainmodes.kernels.damping import Drag
 from grainmodes.kernels.laws import Hertz, interaction
 from grainmodes.kernels.neighbours import RESOLUTION
-from grainmodes.packing import Packing, PackingError, find_contacts
+from grainmodes.packing.forces import energy, net_force, stress
+from grainmodes.packing.state import Packing, PackingError, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear, StepStrain
-from grainmodes.protocols.first_event import steps
-from grainmodes.protocols.quasistatic import affinely, step_to
-from grainmodes.protocols.shear import Walk
+from grainmodes.protocols.shear.first_event import steps
+from grainmodes.protocols.shear.quasistatic import affinely, step_to
+from grainmodes.protocols.shear.run import Walk
 from grainmodes.relaxation.balance import Balance
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.following import find_balance
 from grainmodes.relaxation.newton import newton
-from grainmodes.rows import block_of
-from grainmodes.samples import packed
-from specimens import MINIMAL, crowd, pairs_of, reference
+from grainmodes.stages.packings import step_strain_block
+from grainmodes.stages.rows import block_of
+from grainmodes.stages.samples import packed
 
 FRICTION = interaction(ContactLaw("harmonic", "elastic", 1.0))
 FREE = interaction(ContactLaw("harmonic"))

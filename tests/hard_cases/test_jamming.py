@@ -7,19 +7,19 @@ on the way reaches F_Th; in the last steps there are contacts and pressure on bo
 import numpy as np
 import pytest
 
-from grainmodes.blocks import rigidity_block
-from grainmodes.forces import largest, mean_contact_force, net_force, stress
-from grainmodes.jacobian import jacobian
+from example_packings import ELASTIC, reference
 from grainmodes.kernels.laws import Hertz, interaction
-from grainmodes.packing import Packing, find_contacts
+from grainmodes.packing.forces import largest, mean_contact_force, net_force, stress
+from grainmodes.packing.jacobian import jacobian
+from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
-from grainmodes.protocols.step_strain import step_strain
+from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
-from grainmodes.rigidity import rigidity
-from grainmodes.rows import block_of
-from grainmodes.samples import is_jammed, packed
-from specimens import ELASTIC, reference
+from grainmodes.response.moduli import rigidity
+from grainmodes.stages.packings import rigidity_block
+from grainmodes.stages.rows import block_of
+from grainmodes.stages.samples import is_jammed, packed
 
 FREE = interaction(ContactLaw())
 LAW = ContactLaw(kt=1e-2)

@@ -6,16 +6,16 @@ With friction, two contacts may hold a grain; what counts as loose is `threshold
 import numpy as np
 import pytest
 
-import hard
-from grainmodes.contacts import rattlers
+import naive_failures
+from example_packings import ELASTIC, elastic, reference
 from grainmodes.kernels.laws import Hertz
-from grainmodes.packing import Packing, find_contacts
+from grainmodes.packing.contacts import rattlers
+from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.relaxation import rattlers as rattlers_out
 from grainmodes.relaxation.frictionless import relax_fast
 from grainmodes.relaxation.newton import newton
-from grainmodes.rigidity import rigidity
+from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import problem
-from specimens import ELASTIC, elastic, reference
 
 SOLID = reference(ELASTIC[3])[1]
 SMALL = 0.05
@@ -78,7 +78,7 @@ def test_what_is_loose_does_not_change_g(places, kt):
     degree = np.bincount(np.append(contacts.i, contacts.j), minlength=packing.n)[SOLID.n :]
     assert degree.max() <= 2
     expected = rigidity(SOLID, law).unloaded.g
-    g, lowest = hard.with_all_grains(packing, law)
+    g, lowest = naive_failures.with_all_grains(packing, law)
     assert np.isnan(g) or lowest < -1e-6 or abs(g / expected - 1.0) > 1e-5
     assert problem(packing, law).size == (3 if kt else 2) * SOLID.n
     assert rigidity(packing, law).unloaded.g == pytest.approx(expected, rel=1e-13)
@@ -88,7 +88,7 @@ def test_a_chain_is_taken_off_grain_by_grain():
     packing = crowded(*CASES["a chain"])
     contacts = find_contacts(packing)
     loose = np.arange(packing.n) >= SOLID.n
-    once = hard.rounds_removing(contacts, packing.n, threshold=1, rounds=1)
+    once = naive_failures.rounds_removing(contacts, packing.n, threshold=1, rounds=1)
     assert once.sum() == 1
     np.testing.assert_array_equal(rattlers(contacts, packing.n, threshold=1), loose)
 

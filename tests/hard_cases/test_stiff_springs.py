@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
+from example_packings import ELASTIC, MINIMAL, elastic, reference
 from grainmodes.kernels.damping import Drag
-from grainmodes.modes import mode_sum
-from grainmodes.packing import find_contacts
+from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import StepStrain
-from grainmodes.protocols.step_strain import step_strain
+from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation.dynamics import relax_damped
-from grainmodes.rigidity import AffineStep, rigidity
+from grainmodes.response.mode_sum import mode_sum
+from grainmodes.response.moduli import AffineStep, rigidity
 from grainmodes.spectrum import dense, full_spectrum, problem, spectrum
-from specimens import ELASTIC, MINIMAL, elastic, reference
 
 PACKING = reference(ELASTIC[3])[1]
 STIFF = pytest.mark.parametrize("kt", [10.0, 1e3, 1e6])

@@ -19,12 +19,12 @@ Three grains at the corners of a triangle of side r, s = 0, per degree of freedo
 import numpy as np
 import pytest
 
-from grainmodes.contacts import History
-from grainmodes.forces import forces_on_i, net_force
-from grainmodes.jacobian import jacobian, stiffness_of
-from grainmodes.packing import Packing, find_contacts
+from example_packings import elastic
+from grainmodes.packing.contacts import History
+from grainmodes.packing.forces import forces_on_i, net_force
+from grainmodes.packing.jacobian import jacobian, stiffness_of
+from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.spectrum import spectrum
-from specimens import elastic
 
 R, KT, S = 0.91, 0.3, 0.02
 XI = 1.0 - R

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from grainmodes.kernels.laws import interaction
-from grainmodes.packing import Packing
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.compression import balanced, placed
-from grainmodes.protocols.variants import Seen, variant
+from grainmodes.protocols.compression.trajectory import balanced, placed
+from grainmodes.protocols.law_comparison.comparison import Seen, variant
 
 KT = 2 / 7
 CHOICES = Shear(strain=0.012, step=2e-4)

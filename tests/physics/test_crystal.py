@@ -19,11 +19,11 @@ over the six contacts r_c of a grain.
 import numpy as np
 import pytest
 
-from grainmodes.forces import largest, net_force
-from grainmodes.packing import find_contacts
-from grainmodes.rigidity import rigidity
+from example_packings import crystal, elastic
+from grainmodes.packing.forces import largest, net_force
+from grainmodes.packing.state import find_contacts
+from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import spectrum
-from specimens import crystal, elastic
 
 COLUMNS, ROWS = 7, 8
 KTS = (0.0, 1e-8, 1e-2, 1.0, 2.0, 10.0)

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 import naive_dynamics as slow
+from example_packings import crowd, pairs_of, reference
 from grainmodes.kernels.damping import Dashpot, Drag, Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Elastic, Hertz, Interaction, interaction
-from grainmodes.packing import Packing, find_contacts
+from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.dynamics import Motion, move, relax_damped
-from specimens import crowd, pairs_of, reference
 
 HARMONIC = ContactLaw("harmonic", "elastic", 0.5)
 BARE = ContactLaw("hertz")

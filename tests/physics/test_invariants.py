@@ -5,13 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from grainmodes.contacts import History
-from grainmodes.forces import net_force, stress
-from grainmodes.kernels.laws import interaction
-from grainmodes.packing import Packing, find_contacts
-from grainmodes.rigidity import rigidity
-from grainmodes.spectrum import spectrum
-from specimens import (
+from example_packings import (
     ELASTIC,
     KTS,
     LAWS,
@@ -22,6 +16,12 @@ from specimens import (
     reference,
     smoothed_coulomb,
 )
+from grainmodes.kernels.laws import interaction
+from grainmodes.packing.contacts import History
+from grainmodes.packing.forces import net_force, stress
+from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.response.moduli import rigidity
+from grainmodes.spectrum import spectrum
 
 
 @pytest.mark.parametrize("kt", KTS)

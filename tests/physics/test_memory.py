@@ -9,14 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from example_packings import BACKENDS
 from grainmodes.dataset.files import read_block, write_block
 from grainmodes.kernels.laws import Hertz
 from grainmodes.parameters.compression import Compression
-from grainmodes.protocols.compression import Trajectory, placed
+from grainmodes.protocols.compression.trajectory import Trajectory, placed
 from grainmodes.relaxation.frictionless import relax_loosely
-from grainmodes.rows import block_of, described
-from grainmodes.samples import checkpoint
-from specimens import BACKENDS
+from grainmodes.stages.rows import block_of, described
+from grainmodes.stages.samples import checkpoint
 
 N, PHI = 65536, 0.9
 LIMIT = 2000.0

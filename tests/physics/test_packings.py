@@ -6,18 +6,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import naive
-from grainmodes.contacts import rattlers
-from grainmodes.forces import largest, net, net_force
-from grainmodes.jacobian import jacobian
-from grainmodes.packing import Packing, find_contacts
+from example_packings import elastic, few, pairs_of
+from grainmodes.packing.contacts import rattlers
+from grainmodes.packing.forces import largest, net, net_force
+from grainmodes.packing.jacobian import jacobian
+from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import StepStrain
-from grainmodes.protocols.compression import balanced, placed
-from grainmodes.protocols.step_strain import step_strain
-from grainmodes.rigidity import rigidity
+from grainmodes.protocols.compression.trajectory import balanced, placed
+from grainmodes.protocols.shear.step_strain import step_strain
+from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import spectrum
-from specimens import elastic, few, pairs_of
 
 sizes = st.sampled_from([8, 10, 12, 16, 20, 24, 30])
 dense = st.floats(0.87, 0.95)

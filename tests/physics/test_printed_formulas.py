@@ -4,18 +4,8 @@ import numpy as np
 import pytest
 
 import naive
-import printed
-from grainmodes.forces import stress
-from grainmodes.hessian import effective_hessian
-from grainmodes.jacobian import jacobian, stiffness_of
-from grainmodes.kernels.fire import Pace, advance
-from grainmodes.kernels.laws import interaction
-from grainmodes.packing import Packing, find_contacts
-from grainmodes.parameters.law import ContactLaw
-from grainmodes.relaxation.newton import newton
-from grainmodes.rigidity import Moduli, rigidity
-from grainmodes.spectrum import spectrum
-from specimens import (
+import printed_formulas
+from example_packings import (
     ELASTIC,
     SHEARED,
     contacts_and_pairs,
@@ -25,6 +15,16 @@ from specimens import (
     reference,
     smoothed_coulomb,
 )
+from grainmodes.kernels.fire import Pace, advance
+from grainmodes.kernels.laws import interaction
+from grainmodes.packing.forces import stress
+from grainmodes.packing.hessian import effective_hessian
+from grainmodes.packing.jacobian import jacobian, stiffness_of
+from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.relaxation.newton import newton
+from grainmodes.response.moduli import Moduli, rigidity
+from grainmodes.spectrum import spectrum
 
 HERTZ, HARMONIC = ELASTIC[3], ELASTIC[5]
 KT = 1.0
@@ -75,15 +75,17 @@ def test_affine_rigidity_of_paper_a_has_the_wrong_sign(name):
     packing, pairs, moduli = unloaded(name)
     area = packing.box_length**2
     assert moduli.g_affine > 0
-    assert printed.affine_rigidity(pairs, packing.box_length) == pytest.approx(-moduli.g_affine)
+    assert printed_formulas.affine_rigidity(pairs, packing.box_length) == pytest.approx(
+        -moduli.g_affine
+    )
     assert np.sum(height_times_xi(pairs)) / area == pytest.approx(-moduli.g_affine)
-    theta = printed.theta_vector(pairs, packing.n, KT)
+    theta = printed_formulas.theta_vector(pairs, packing.n, KT)
     assert -np.sum(theta * moduli.displacement) / area == pytest.approx(moduli.g_nonaffine)
 
 
 def height_times_xi(pairs: list[naive.Pair]) -> list[float]:
     """⟨Y|Ξ⟩ of A (46), contact by contact, so that no image is met the wrong way."""
-    return [p.branch[1] * printed.normal_block(p)[0] @ [p.branch[1], 0, 0] for p in pairs]
+    return [p.branch[1] * printed_formulas.normal_block(p)[0] @ [p.branch[1], 0, 0] for p in pairs]
 
 
 def test_affine_rigidity_of_paper_b_has_the_wrong_sign():
@@ -91,13 +93,13 @@ def test_affine_rigidity_of_paper_b_has_the_wrong_sign():
     packing, pairs, moduli = unloaded(HARMONIC)
     sigma = stress(packing, find_contacts(packing), elastic(HARMONIC, KT))
     kept = (moduli.affine[0, 1] + moduli.affine[1, 0] - sigma[1, 1]) / 2
-    found = printed.harmonic_affine_rigidity(pairs, packing.box_length)
+    found = printed_formulas.harmonic_affine_rigidity(pairs, packing.box_length)
     assert found == pytest.approx(-kept)
 
 
 def test_without_slip_the_printed_jacobian_of_paper_a_is_right():
     packing = reference(HERTZ)[1]
-    blocks = printed.jacobian(pairs_of(packing), packing.n, KT)
+    blocks = printed_formulas.jacobian(pairs_of(packing), packing.n, KT)
     np.testing.assert_allclose(blocks, ours(packing, elastic(HERTZ, KT)), atol=1e-12)
 
 
@@ -106,7 +108,7 @@ def test_jacobian_with_a_tilde_is_wrong(name):
     """A (36), (37); B (39), (40): not symmetric, not translation invariant, wrong displacements."""
     packing, _, moduli = unloaded(name)
     law = elastic(name, KT)
-    right, wrong = ours(packing, law), printed.tilde(ours(packing, law))
+    right, wrong = ours(packing, law), printed_formulas.tilde(ours(packing, law))
     for blocks, holds in ((right, True), (wrong, False)):
         flat = blocks.reshape(3 * packing.n, -1)
         push = np.abs(blocks[:, :, :, :2].sum(axis=2)).max()
@@ -123,7 +125,7 @@ def test_jacobian_of_paper_b_has_the_wrong_sign_off_the_diagonal():
     """B (D29), (D32)–(D34) are those of J_ji; with them even J breaks translation invariance."""
     packing, pairs, moduli = unloaded(HARMONIC)
     right = ours(packing, elastic(HARMONIC, KT))
-    wrong = printed.harmonic_jacobian(pairs, packing.n, KT)
+    wrong = printed_formulas.harmonic_jacobian(pairs, packing.n, KT)
     grains = np.arange(packing.n)
     np.testing.assert_allclose(wrong[grains, :, grains], right[grains, :, grains], atol=1e-12)
     np.testing.assert_allclose(wrong[:, :2, :, :2], right[:, :2, :, :2], atol=1e-12)
@@ -134,7 +136,7 @@ def test_jacobian_of_paper_b_has_the_wrong_sign_off_the_diagonal():
     np.testing.assert_allclose(flipped, right, atol=1e-12)
     assert np.abs(wrong[:, :, :, :2].sum(axis=2)).max() > 0.1
     force = np.einsum("iajb,jb->ia", right, moduli.displacement)
-    assert error(response(printed.tilde(wrong), force), moduli.displacement) > 0.1
+    assert error(response(printed_formulas.tilde(wrong), force), moduli.displacement) > 0.1
 
 
 def test_tangential_force_of_paper_a_pushes_the_wrong_way():
@@ -143,10 +145,12 @@ def test_tangential_force_of_paper_a_pushes_the_wrong_way():
     packing = crowd(41, slip=0.4)
     for pair in contacts_and_pairs(packing)[1]:
         overlap = pair.reach - naive.length(pair.branch)
-        assert printed.tangential_force(law, overlap, pair.slip) * pair.slip > 0
+        assert printed_formulas.tangential_force(law, overlap, pair.slip) * pair.slip > 0
         assert naive.tangential_force(law, overlap, pair.slip) * pair.slip < 0
         d13 = -(overlap**0.5)
-        assert printed.tangential_force(law, overlap, 1j * h).imag / h == pytest.approx(-d13)
+        assert printed_formulas.tangential_force(law, overlap, 1j * h).imag / h == pytest.approx(
+            -d13
+        )
         assert naive.tangential_force(law, overlap, 1j * h).imag / h == pytest.approx(d13)
     k = stiffness_of(find_contacts(packing), elastic("hertz", KT))
     assert np.all(k[:, 2, 2] < 0)
@@ -160,8 +164,8 @@ def test_slip_terms_of_paper_a_stand_in_the_wrong_rows():
     """
     law, packing = ContactLaw("hertz", "elastic", KT), crowd(42, slip=0.4)
     for pair in pairs_of(packing):
-        block = printed.normal_block(pair) + printed.tangential_block(pair, KT)
-        n, _, r, xi = printed.parts(pair)
+        block = printed_formulas.normal_block(pair) + printed_formulas.tangential_block(pair, KT)
+        n, _, r, xi = printed_formulas.parts(pair)
         by_xi = -KT * pair.slip / (2 * xi**0.5)
         f_t = naive.tangential_force(law, xi, pair.slip)
         wrong = block - naive.contact_stiffness(law, pair) * [1, 1, -1]
@@ -178,10 +182,10 @@ def test_diagonal_blocks_of_paper_a_do_not_follow_from_the_others():
     """A (F24) lacks k_T, the second term of (F30) has the wrong sign."""
     kt = 0.3
     for pair in pairs_of(crowd(43, slip=0.4)):
-        n, _, _, xi = printed.parts(pair)
+        n, _, _, xi = printed_formulas.parts(pair)
         term = -pair.slip / (2 * xi**0.5) * n
-        off = printed.tangential_block(pair, kt)[:2, 2]
-        difference = printed.tangential_diagonal(pair, kt)[:2, 2] - off
+        off = printed_formulas.tangential_block(pair, kt)[:2, 2]
+        difference = printed_formulas.tangential_diagonal(pair, kt)[:2, 2] - off
         np.testing.assert_allclose(difference, [(1 - kt) * term[0], -2 * kt * term[1]], atol=1e-13)
 
 
@@ -193,7 +197,7 @@ def test_tangent_rotates_with_the_contact(normal):
     k = stiffness_of(find_contacts(packing), interaction(law))
     for pair, found in zip(pairs_of(packing), k, strict=True):
         still = naive.contact_stiffness(law, pair._replace(slip=0.0))
-        n, _, r, xi = printed.parts(pair)
+        n, _, r, xi = printed_formulas.parts(pair)
         f_t = naive.tangential_force(law, xi, pair.slip)
         turning = np.zeros((3, 3))
         turning[:2, :2] = -f_t / r * np.outer(n, naive.tangent(pair.branch))

@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 from scipy.stats import ks_2samp
 
-from grainmodes.contacts import rattlers
-from grainmodes.forces import stress
+from example_packings import elastic
 from grainmodes.kernels.damping import Dashpot
-from grainmodes.packing import Packing, find_contacts
+from grainmodes.packing.contacts import rattlers
+from grainmodes.packing.forces import stress
+from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
-from grainmodes.protocols.compression import advanced, balanced, placed
+from grainmodes.protocols.compression.trajectory import advanced, balanced, placed
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.newton import newton
-from grainmodes.rigidity import rigidity
-from specimens import elastic
+from grainmodes.response.moduli import rigidity
 
 pytestmark = pytest.mark.slow
 

@@ -8,18 +8,18 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from grainmodes.forces import net_force
-from grainmodes.jacobian import jacobian
+from example_packings import LAWS, crowd, law_name, quenched, reference
 from grainmodes.kernels.laws import Harmonic, interaction
-from grainmodes.packing import Packing, find_contacts, nonaffine_motion
+from grainmodes.packing.forces import net_force
+from grainmodes.packing.jacobian import jacobian
+from grainmodes.packing.state import Packing, find_contacts, nonaffine_motion
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.quasistatic import first_balance, step_to
-from grainmodes.protocols.shear import RIGIDITY_FELL, Walk
-from grainmodes.protocols.sheared_state import State
+from grainmodes.protocols.shear.quasistatic import first_balance, step_to
+from grainmodes.protocols.shear.run import RIGIDITY_FELL, Walk
+from grainmodes.protocols.shear.state import State
 from grainmodes.relaxation.frictionless import relax_fast
-from grainmodes.shear_blocks import row_of
-from specimens import LAWS, crowd, law_name, quenched, reference
+from grainmodes.stages.shear import row_of
 
 B = ContactLaw("harmonic", "elastic", 1.0)
 FRICTIONLESS = [ContactLaw("harmonic"), ContactLaw("hertz")]

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 import scipy.sparse as sparse
 
+from example_packings import reference
 from grainmodes.kernels.laws import interaction
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.quasistatic import step_to
-from grainmodes.protocols.shear import Walk
-from grainmodes.protocols.sheared_state import reopened
-from grainmodes.shear_blocks import row_of
-from grainmodes.stability import asymmetry
-from specimens import reference
+from grainmodes.protocols.shear.quasistatic import step_to
+from grainmodes.protocols.shear.run import Walk
+from grainmodes.protocols.shear.state import reopened
+from grainmodes.response.stability import asymmetry
+from grainmodes.stages.shear import row_of
 
 B = ContactLaw("harmonic", "elastic", 1.0)
 CHOICES = Shear(strain=1e-3, step=1e-4, smallest_step=1e-8)

@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from grainmodes.contacts import History
-from grainmodes.forces import stress
-from grainmodes.packing import Packing, find_contacts
+from example_packings import ELASTIC, MINIMAL, elastic, reference
+from grainmodes.packing.contacts import History
+from grainmodes.packing.forces import stress
+from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.strain import StepStrain
-from grainmodes.protocols.step_strain import step_strain
+from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation.newton import newton
-from grainmodes.rigidity import rigidity
-from specimens import ELASTIC, MINIMAL, elastic, reference
+from grainmodes.response.moduli import rigidity
 
 KTS = (0.0, 1e-8, 1e-4, 1e-2, 1.0, 2.0, 10.0)
 

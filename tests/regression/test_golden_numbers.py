@@ -7,14 +7,14 @@ below end in the same minimum whatever the order of a sum.
 import numpy as np
 import pytest
 
-from grainmodes.contacts import rattlers
-from grainmodes.forces import stress
-from grainmodes.packing import find_contacts
+from example_packings import ELASTIC, elastic, reference
+from grainmodes.packing.contacts import rattlers
+from grainmodes.packing.forces import stress
+from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.compression import Compression
-from grainmodes.protocols.compression import balanced, placed
-from grainmodes.rigidity import rigidity
+from grainmodes.protocols.compression.trajectory import balanced, placed
+from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import spectrum
-from specimens import ELASTIC, elastic, reference
 
 COMPRESSED = [
     # n, seed, pressure, g unloaded, g loaded

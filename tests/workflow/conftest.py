@@ -100,7 +100,7 @@ def copy_of(folder: Path, target: Path) -> Study:
 def checkout(tmp_path_factory) -> Path:
     """What Snakemake needs of the checkout, and the tiny scene; never run."""
     folder = tmp_path_factory.mktemp("checkout")
-    for name in ("workflow", "config", "src"):
+    for name in ("workflow", "config", "src", "measurements"):
         shutil.copytree(
             CHECKOUT / name,
             folder / name,

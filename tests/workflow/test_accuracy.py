@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from accuracy import NAMES
+from measurements.accuracy import NAMES
 
 from .conftest import jobs_in
 
@@ -14,7 +14,7 @@ def test_every_choice_is_measured_and_drawn(fresh, target, size):
     plan = fresh.run("-n", "-p", target)
     count = len(NAMES)
     assert jobs_in(plan) == {target: 1, "measure_accuracy": count, "draw_accuracy": count}
-    asked = re.findall(r"measure\.py (\w+) --size (\w+) -o results/accuracy/(\w+)/(\w+)\.csv", plan)
+    asked = re.findall(r"measure (\w+) --size (\w+) -o results/accuracy/(\w+)/(\w+)\.csv", plan)
     assert sorted(asked) == sorted((name, size, size, name) for name in NAMES)
 
 
@@ -26,5 +26,5 @@ def test_a_choice_is_measured_anew_when_what_it_calls_is_edited(fresh):
             path.touch()
     fresh.run("--touch", "accuracy")
     assert fresh.planned("accuracy") == {}
-    fresh.edit("protocols/step_strain.py")
+    fresh.edit("protocols/shear/step_strain.py")
     assert fresh.planned("accuracy")["measure_accuracy"] >= 1

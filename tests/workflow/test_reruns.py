@@ -55,10 +55,10 @@ def test_another_fraction_starts_from_the_checkpoints(study):
 @pytest.mark.parametrize(
     ("source", "rules"),
     [
-        ("figures/dos.py", {"figure": 1}),
+        ("figures/paper_a/dos.py", {"figure": 1}),
         ("figures/grainmodes.mplstyle", {"figure": 2}),
         ("cli/show.py", {}),
-        ("protocols/step_strain.py", {"step_strain": 4} | AFTER_POINTS),
+        ("protocols/shear/step_strain.py", {"step_strain": 4} | AFTER_POINTS),
         ("spectrum/dense.py", {"spectrum": 4} | AFTER_POINTS),
         (
             "kernels/laws/elastic.py",
@@ -73,7 +73,7 @@ def test_an_edit_runs_what_depends_on_it(study, source, rules):
 
 
 def test_an_edited_figure_is_redrawn_alone(study):
-    study.edit("figures/dos.py")
+    study.edit("figures/paper_a/dos.py")
     ensemble = study.results / "ensemble.nc"
     before = ensemble.stat().st_mtime_ns
     assert "Draw dos." in study.run()

@@ -21,19 +21,19 @@ rule accuracy_large:
 
 rule measure_accuracy:
     input:
-        script="workflow/accuracy/measure.py",
+        script="measurements/accuracy/measure.py",
         code=lambda wildcards: sources_of_accuracy(*SHARED, wildcards.name),
     output:
         f"{DIAGRAM}.csv",
     message:
         "Measure what {wildcards.name} costs and buys, {wildcards.size}."
     shell:
-        "python {input.script} {wildcards.name} --size {wildcards.size} -o {output}"
+        "python -m measurements.accuracy.measure {wildcards.name} --size {wildcards.size} -o {output}"
 
 
 rule draw_accuracy:
     input:
-        script="workflow/accuracy/draw.py",
+        script="measurements/accuracy/draw.py",
         table=f"{DIAGRAM}.csv",
         code=sources_of_accuracy("diagram", "table"),
         style=sources("grainmodes.figures"),
@@ -44,4 +44,4 @@ rule draw_accuracy:
     message:
         "Draw {wildcards.name}, {wildcards.size}."
     shell:
-        "python {input.script} {input.table} -o {params.stem}"
+        "python -m measurements.accuracy.draw {input.table} -o {params.stem}"

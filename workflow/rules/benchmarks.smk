@@ -3,28 +3,28 @@
 
 rule benchmarks:
     input:
-        scripts="tests/benchmarks/run.py",
+        scripts="measurements/benchmarks/run.py",
     message:
         "Measure the speeds."
     shell:
-        "python {input.scripts} | tee results/benchmarks.txt"
+        "python -m measurements.benchmarks.run | tee results/benchmarks.txt"
 
 
 rule growth:
     input:
-        scripts="tests/benchmarks/growth.py",
+        scripts="measurements/benchmarks/growth.py",
     params:
         longest=30,  # CPU seconds of a single run
     message:
         "Measure how time and memory grow with N, into results/growth.csv, .png, .pdf, costs.yaml."
     shell:
-        "python {input.scripts} results --longest {params.longest}"
+        "python -m measurements.benchmarks.growth results --longest {params.longest}"
 
 
 rule effects:
     input:
-        scripts="tests/benchmarks/effects.py",
+        scripts="measurements/benchmarks/effects.py",
     message:
         "Measure what each effect costs at each stage, into results/effects.csv."
     shell:
-        "python {input.scripts} results/effects.csv"
+        "python -m measurements.benchmarks.effects results/effects.csv"

@@ -8,14 +8,9 @@ from snakemake.exceptions import WorkflowError
 
 from grainmodes.configuration import ConfigurationError, scene_of
 from grainmodes.parameters.figures import FIGURES
-from grainmodes.parameters.grid import (
-    CHECKPOINT_SPACING,
-    LOWEST_CHECKPOINT,
-    checkpoint_at_or_below,
-    format_value,
-)
-from grainmodes.provenance import script_sources, stage_sources
-from workflow.accuracy import NAMES
+from grainmodes.parameters.grid import CHECKPOINT_SPACING, LOWEST_CHECKPOINT, checkpoint_at_or_below, format_value
+from grainmodes.runtime.provenance import script_sources, stage_sources
+from measurements.accuracy import NAMES
 
 # Snakemake would merge a scene of the command line into the default one, key by key.
 if not workflow.config_settings.configfiles:
@@ -59,13 +54,14 @@ def as_written(paths):
 
 
 def sources_of_accuracy(*modules):
-    """Files whose edit changes what modules of `workflow/accuracy` do."""
-    return as_written(script_sources(*(Path(f"workflow/accuracy/{name}.py") for name in modules)))
+    """Files whose edit changes what modules of `measurements/accuracy` do."""
+    return as_written(script_sources(*(Path(f"measurements/accuracy/{name}.py") for name in modules)))
 
 
 def sources_of_figure(wildcards):
     """What all figures share, and the module of this one."""
-    return sources("grainmodes.figures", f"grainmodes.figures.{wildcards.figure}")
+    room = FIGURES[wildcards.figure].room
+    return sources("grainmodes.figures", f"grainmodes.figures.{room}.{wildcards.figure}")
 
 
 def data_of_figure(wildcards):

@@ -4,7 +4,7 @@
 rule film:
     input:
         data=releases(),
-        code=sources("grainmodes.figures.film"),
+        code=sources("grainmodes.figures.paper_c.film"),
     output:
         f"{STUDY}/figures/release_spirals.gif",
     message:

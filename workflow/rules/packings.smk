@@ -4,7 +4,7 @@
 rule compress:
     input:
         start=checkpoint_below,
-        code=sources("grainmodes.blocks:compress_block"),
+        code=sources("grainmodes.stages.packings:compress_block"),
     output:
         f"{STUDY}/trajectories/{BLOCK}",
     priority: 2  # everything else waits for the trajectories
@@ -20,7 +20,7 @@ rule compress:
 rule pack:
     input:
         start=checkpoint_for,
-        code=sources("grainmodes.blocks:packing_block"),
+        code=sources("grainmodes.stages.packings:packing_block"),
     output:
         f"{STUDY}/packings/{BLOCK}",
     priority: 1

@@ -4,7 +4,7 @@
 rule rigidity:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.blocks:rigidity_block"),
+        code=sources("grainmodes.stages.packings:rigidity_block"),
     output:
         f"{STUDY}/rigidity/{RESPONSE}",
     params:
@@ -19,7 +19,7 @@ rule rigidity:
 rule step_strain:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.blocks:step_strain_block"),
+        code=sources("grainmodes.stages.packings:step_strain_block"),
     output:
         f"{STUDY}/step_strain/{RESPONSE}",
     params:
@@ -34,7 +34,7 @@ rule step_strain:
 rule spectrum:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.spectrum_blocks:spectrum_block"),
+        code=sources("grainmodes.stages.spectrum:spectrum_block"),
     output:
         f"{STUDY}/spectrum/{RESPONSE}",
     params:
@@ -49,7 +49,7 @@ rule spectrum:
 rule spectrum_rattlers:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.spectrum_blocks:rattlers_block"),
+        code=sources("grainmodes.stages.spectrum:rattlers_block"),
     output:
         f"{STUDY}/spectrum_rattlers/{RESPONSE}",
     params:
@@ -65,7 +65,7 @@ rule spectrum_rattlers:
 rule spectrum_hessian:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.spectrum_blocks:hessian_block"),
+        code=sources("grainmodes.stages.spectrum:hessian_block"),
     output:
         f"{STUDY}/spectrum_hessian/{RESPONSE}",
     params:
@@ -80,7 +80,7 @@ rule spectrum_hessian:
 rule probes:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.probes:probes_block"),
+        code=sources("grainmodes.stages.claim_diagnostics:probes_block"),
     output:
         f"{STUDY}/probes/{RESPONSE}",
     params:
@@ -95,7 +95,7 @@ rule probes:
 rule shear:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.shear_blocks:shear_block", "grainmodes.cli.keeping"),
+        code=sources("grainmodes.stages.shear:shear_block", "grainmodes.stages.checkpoints"),
     output:
         f"{STUDY}/shear/{RESPONSE}",
     params:
@@ -110,7 +110,7 @@ rule shear:
 rule pairs:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.pair_blocks:pairs_block"),
+        code=sources("grainmodes.stages.pairs:pairs_block"),
     output:
         f"{STUDY}/pairs/{RESPONSE}",
     params:
@@ -125,7 +125,7 @@ rule pairs:
 rule release:
     input:
         pairs=f"{STUDY}/pairs/{RESPONSE}",
-        code=sources("grainmodes.release_blocks:release_block", "grainmodes.cli.keeping"),
+        code=sources("grainmodes.stages.release:release_block", "grainmodes.stages.checkpoints"),
     output:
         f"{STUDY}/release/{RESPONSE}",
     params:
@@ -140,7 +140,7 @@ rule release:
 rule variants:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.variant_blocks:variants_block"),
+        code=sources("grainmodes.stages.law_comparison:variants_block"),
     output:
         f"{STUDY}/variants/{RESPONSE}",
     params:
@@ -155,7 +155,7 @@ rule variants:
 rule fields:
     input:
         packings=first_packings,
-        code=sources("grainmodes.field_blocks:fields_block"),
+        code=sources("grainmodes.stages.fields:fields_block"),
     output:
         f"{STUDY}/fields/{POINT}",
     params:
@@ -170,7 +170,7 @@ rule fields:
 rule close_up:
     input:
         packings=first_packings,
-        code=sources("grainmodes.close_up_blocks:close_up_block"),
+        code=sources("grainmodes.stages.event_detail:close_up_block"),
     output:
         f"{STUDY}/close_up/{POINT}",
     params:

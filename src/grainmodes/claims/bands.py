@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from grainmodes import statistics
 from grainmodes.claims.claim import NotAsked
 from grainmodes.claims.estimates import Estimate, mean
 from grainmodes.claims.samples import Samples
+from grainmodes.statistics import averages
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -78,7 +78,7 @@ def separable(ensemble: xr.Dataset) -> xr.Dataset:
 def _known(values: xr.DataArray) -> xr.DataArray:
     """Whether a sample has values; of modes the first vibration tells, of bins any."""
     if "mode" in values.dims:
-        return values.isel(mode=statistics.TRANSLATIONS).notnull()
+        return values.isel(mode=averages.TRANSLATIONS).notnull()
     return values.notnull().any("bin")
 
 
@@ -93,7 +93,7 @@ def modes(samples: Samples, phi: float, kappa: float) -> Modes:
             break
     if spectrum == "eigenvalue":
         fractions = np.zeros_like(values) if fractions is None else fractions
-        return Modes(statistics.frequencies(values).frequency, fractions)
+        return Modes(averages.frequencies(values).frequency, fractions)
     edges = samples.of("bin_edge", phi, kappa)
     split = (edges[:, :-1] < BETWEEN * np.sqrt(kappa)).astype(float)
     return _from_bins(edges, values, split if fractions is None else fractions)

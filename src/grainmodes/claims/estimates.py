@@ -1,7 +1,7 @@
 """Numbers with standard errors over seeds.
 
-`mean` is that of `grainmodes.statistics`. What is no mean, as a ratio of two means or the zero of
-a mean, takes its error from the jackknife: with theta_s the statistic without sample s,
+`mean` is that of `grainmodes.statistics.averages`. What is no mean, as a ratio of two means or the
+zero of a mean, takes its error from the jackknife: with theta_s the statistic without sample s,
 
     error² = (S - 1) / S  sum_s (theta_s - mean theta)²,
 
@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes import statistics
+from grainmodes.statistics import averages
 
 
 class Estimate(NamedTuple):
@@ -33,7 +33,7 @@ def complete(*rows: np.ndarray) -> np.ndarray:
 
 def mean(values: np.ndarray) -> Estimate:
     """Mean of (S,) values; NaN are left out."""
-    found = statistics.average(values, np.isfinite(values))
+    found = averages.average(values, np.isfinite(values))
     return Estimate(float(found.mean), float(found.standard_error))
 
 

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from grainmodes.atomic import replaced
 from grainmodes.claims.claim import Verdict
+from grainmodes.runtime.atomic import replaced
 
 COLUMNS = [field.name for field in fields(Verdict)]
 

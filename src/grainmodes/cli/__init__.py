@@ -12,7 +12,7 @@ from importlib import import_module
 from pathlib import Path
 
 from grainmodes.cli.arguments import parser
-from grainmodes.environment import prepare
+from grainmodes.runtime.environment import prepare
 
 
 def main(argv: list[str] | None = None) -> int:

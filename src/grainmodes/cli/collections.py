@@ -47,7 +47,7 @@ def _source(arguments: Namespace) -> Path | list[Path]:
 
 def film(arguments: Namespace) -> None:
     """Released samples → the film of one of them."""
-    from grainmodes.figures import film
+    from grainmodes.figures.paper_c import film
 
     asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "seed")}
     options = {name: value for name, value in asked.items() if value is not None}

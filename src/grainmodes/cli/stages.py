@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
 
-from grainmodes import blocks
 from grainmodes.configuration import ConfigurationError, Scene, scene_of
 from grainmodes.dataset.files import Block, BlockError, read_block, write_block
 from grainmodes.parameters.fields import field_frequencies
+from grainmodes.stages import packings
 
 OPTIONS = {
     "grids[0].n[0]": "--n",
@@ -33,7 +33,7 @@ def compress(arguments: Namespace) -> None:
     scene = _scene(arguments.settings, n=arguments.n, phi=arguments.phi)
     opened = _opened(arguments.start, "trajectories") if arguments.start else nullcontext()
     with opened as start:
-        block = blocks.compress_block(
+        block = packings.compress_block(
             arguments.n,
             arguments.seeds,
             arguments.phi,
@@ -49,7 +49,7 @@ def pack(arguments: Namespace) -> None:
     scene = _scene(arguments.settings, phi=arguments.phi)
     compression, normal = scene.protocol.compression, scene.law.normal
     with _opened(arguments.start, "trajectories") as start:
-        block = blocks.packing_block(start, arguments.phi, compression, normal)
+        block = packings.packing_block(start, arguments.phi, compression, normal)
     write_block(arguments.output, block)
 
 
@@ -58,7 +58,7 @@ def rigidity(arguments: Namespace) -> None:
     scene = _scene(arguments.settings, kt=arguments.kt)
     law = scene.law_at(arguments.kt)
     with _opened(arguments.packings, "packings") as packings:
-        block = blocks.rigidity_block(packings, law, scene.protocol.rattlers)
+        block = packings.rigidity_block(packings, law, scene.protocol.rattlers)
     write_block(arguments.output, block)
 
 
@@ -67,13 +67,13 @@ def step_strain(arguments: Namespace) -> None:
     scene = _scene(arguments.settings, kt=arguments.kt)
     law = scene.law_at(arguments.kt)
     with _opened(arguments.packings, "packings") as packings:
-        block = blocks.step_strain_block(packings, law, scene.protocol.step_strain)
+        block = packings.step_strain_block(packings, law, scene.protocol.step_strain)
     write_block(arguments.output, block)
 
 
 def spectrum(arguments: Namespace) -> None:
     """Packings → their spectra."""
-    from grainmodes.spectrum_blocks import hessian_block, rattlers_block, spectrum_block
+    from grainmodes.stages.spectrum import hessian_block, rattlers_block, spectrum_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law, kind = scene.law_at(arguments.kt), scene.grids[0].observables.spectrum
@@ -95,7 +95,7 @@ def spectrum(arguments: Namespace) -> None:
 
 def probes(arguments: Namespace) -> None:
     """Packings → what single claims need."""
-    from grainmodes.probes import probes_block
+    from grainmodes.stages.claim_diagnostics import probes_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     with _opened(arguments.packings, "packings") as packings:
@@ -105,7 +105,7 @@ def probes(arguments: Namespace) -> None:
 
 def fields(arguments: Namespace) -> None:
     """Packings → fields of the first of them."""
-    from grainmodes.field_blocks import fields_block
+    from grainmodes.stages.fields import fields_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law, protocol = scene.law_at(arguments.kt), scene.protocol
@@ -117,8 +117,8 @@ def fields(arguments: Namespace) -> None:
 
 def shear(arguments: Namespace) -> None:
     """Packings → their curves of stress and strain, and their events."""
-    from grainmodes.cli.keeping import Keeping, fingerprint
-    from grainmodes.shear_blocks import shear_block
+    from grainmodes.stages.checkpoints import Keeping, fingerprint
+    from grainmodes.stages.shear import shear_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law, choices = scene.law_at(arguments.kt), scene.protocol.shear
@@ -133,7 +133,7 @@ def shear(arguments: Namespace) -> None:
 
 def close_up(arguments: Namespace) -> None:
     """Packings → the first event of the first of them, looked at closely."""
-    from grainmodes.close_up_blocks import close_up_block
+    from grainmodes.stages.event_detail import close_up_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law = scene.law_at(arguments.kt)
@@ -144,7 +144,7 @@ def close_up(arguments: Namespace) -> None:
 
 def pairs(arguments: Namespace) -> None:
     """Packings → complex pairs along their shear."""
-    from grainmodes.pair_blocks import pairs_block
+    from grainmodes.stages.pairs import pairs_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law, protocol = scene.law_at(arguments.kt), scene.protocol
@@ -155,8 +155,8 @@ def pairs(arguments: Namespace) -> None:
 
 def release(arguments: Namespace) -> None:
     """Samples with their complex pairs → what becomes of their unstable states."""
-    from grainmodes.cli.keeping import Keeping, fingerprint, of_run
-    from grainmodes.release_blocks import release_block
+    from grainmodes.stages.checkpoints import Keeping, fingerprint, of_run
+    from grainmodes.stages.release import release_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law, choices = scene.law_at(arguments.kt), scene.protocol.release
@@ -170,7 +170,7 @@ def release(arguments: Namespace) -> None:
 
 def variants(arguments: Namespace) -> None:
     """Packings → their complex pairs under every tangential law."""
-    from grainmodes.variant_blocks import variants_block
+    from grainmodes.stages.law_comparison import variants_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law = scene.law_at(arguments.kt)
@@ -181,7 +181,7 @@ def variants(arguments: Namespace) -> None:
 
 def point(arguments: Namespace) -> None:
     """Everything of one point, without files between."""
-    from grainmodes.point import point_block
+    from grainmodes.stages.point import point_block
 
     settings = _with_options(arguments)
     scene = _scene(settings, n=arguments.n, phi=arguments.phi, kt=arguments.kt)

@@ -11,12 +11,6 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 
-from grainmodes.binning import (
-    HIGHEST_BINS,
-    HIGHEST_DIVISIONS,
-    LOGARITHMIC_BINS,
-    ROTATIONAL_DIVISIONS,
-)
 from grainmodes.cost.table import Table
 from grainmodes.parameters.factors import PARDISO_FROM
 from grainmodes.parameters.protocol import Protocol
@@ -26,6 +20,12 @@ from grainmodes.parameters.spectra import (
     DENSE_COUNTS_UP_TO,
     DENSE_MODES_UP_TO,
     SpectrumChoices,
+)
+from grainmodes.statistics.binning import (
+    HIGHEST_BINS,
+    HIGHEST_DIVISIONS,
+    LOGARITHMIC_BINS,
+    ROTATIONAL_DIVISIONS,
 )
 
 USUAL_STEP = 1e-4

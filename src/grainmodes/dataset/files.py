@@ -15,8 +15,8 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 
-from grainmodes.atomic import replaced
 from grainmodes.dataset import VARIABLES
+from grainmodes.runtime.atomic import replaced
 
 
 class BlockError(Exception):

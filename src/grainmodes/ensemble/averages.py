@@ -9,8 +9,8 @@ from __future__ import annotations
 import pandas as pd
 import xarray as xr
 
-from grainmodes import statistics
 from grainmodes.ensemble.reading import variable
+from grainmodes.statistics.averages import average
 
 GRID = ["n", "phi", "kt"]
 
@@ -29,10 +29,10 @@ def averages(ensemble: xr.Dataset, names: list[str]) -> pd.DataFrame:
         BlockError: the ensemble lacks one of the names.
     """
     converged = (variable(ensemble, "converged") == 1).to_numpy()
-    jammed = statistics.average(variable(ensemble, "jammed").to_numpy(), converged).mean
+    jammed = average(variable(ensemble, "jammed").to_numpy(), converged).mean
     columns = {"fraction_jammed": jammed}
     for name in names:
-        result = statistics.average(variable(ensemble, name).to_numpy(), converged)
+        result = average(variable(ensemble, name).to_numpy(), converged)
         columns[name] = result.mean
         columns[f"{name}_standard_error"] = result.standard_error
         columns[f"{name}_samples"] = result.samples

@@ -14,10 +14,10 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from grainmodes import binning, statistics
-from grainmodes.binning import Binned, Sums
 from grainmodes.dataset.files import BlockError
 from grainmodes.ensemble.reading import variable
+from grainmodes.statistics import averages, binning
+from grainmodes.statistics.binning import Binned, Sums
 
 
 class Spectrum(NamedTuple):
@@ -33,7 +33,7 @@ class Spectrum(NamedTuple):
     @property
     def frequency(self) -> np.ndarray:
         """(S, M) 1/t_0, NaN where there is no vibration."""
-        return statistics.frequencies(self.eigenvalue).frequency
+        return averages.frequencies(self.eigenvalue).frequency
 
     def in_bins(self, edges: np.ndarray) -> Binned:
         """These modes in the bins of `edges`."""

@@ -1,6 +1,6 @@
 """Figures: each a picture, the same picture as vectors, and the plotted numbers.
 
-A figure is a module of this package of the name in `parameters.figures.FIGURES`, with
+A figure is a module of its paper's package, of the name in `parameters.figures.FIGURES`, with
 
     COLUMNS                      column → (unit, meaning), in the order of the CSV file
     table(source, options)       the plotted numbers, a pure function
@@ -22,11 +22,11 @@ import matplotlib.style
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from grainmodes.atomic import replaced
 from grainmodes.ensemble import open_ensemble
-from grainmodes.figures import appearance, field_rows
-from grainmodes.figures.selection import Options
+from grainmodes.figures.shared import appearance, field_rows
+from grainmodes.figures.shared.selection import Options
 from grainmodes.parameters.figures import FIGURES
+from grainmodes.runtime.atomic import replaced
 
 STYLE = Path(__file__).with_name("grainmodes.mplstyle")
 RESOLUTION = 300
@@ -51,7 +51,7 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
     """
     if name not in FIGURES:
         raise ValueError(f"figure {name!r}: expected one of {', '.join(FIGURES)}")
-    module = import_module(f"grainmodes.figures.{name}")
+    module = import_module(f"grainmodes.figures.{FIGURES[name].room}.{name}")
     with _opened(name, data) as source:
         table = module.table(source, Options.read(name, options))
     with matplotlib.style.context(STYLE):

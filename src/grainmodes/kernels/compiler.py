@@ -14,7 +14,7 @@ from numba import njit
 from numba.core.caching import FunctionCache
 from numba.extending import overload, register_jitable
 
-from grainmodes.environment import numba_cache
+from grainmodes.runtime.environment import numba_cache
 
 FLAGS = {
     "cache": True,

@@ -24,11 +24,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from grainmodes.kernels.cache_blocks import BLOCK, pair_scratch
 from grainmodes.kernels.compiler import kernel
 from grainmodes.kernels.damping import drag_rate, pair_viscosity
 from grainmodes.kernels.laws import admissible, advanced, normal_response, tangential_response
 from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours, separation
-from grainmodes.kernels.pair_blocks import BLOCK, pair_scratch
 
 
 class Grains(NamedTuple):

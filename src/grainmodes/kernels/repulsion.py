@@ -4,8 +4,8 @@
 
 One loop over the pairs, and a branch: near a balance it falls the same way step after step. Pair
 forces without a branch, in blocks that fit the first-level cache, vectorise and took 1.6 times as
-long on an x86-64 server, at φ = 0.90 and skin 0.2 (`tests/benchmarks/twin.py`). At γ = 0 the loop
-is compiled without shear, whose one term cost 4 % among 65536 grains.
+long on an x86-64 server, at φ = 0.90 and skin 0.2 (`measurements/benchmarks/twin.py`). At γ = 0
+the loop is compiled without shear, whose one term cost 4 % among 65536 grains.
 """
 
 from __future__ import annotations

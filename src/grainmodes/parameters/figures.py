@@ -9,149 +9,191 @@ from dataclasses import dataclass
 class Figure:
     """What a figure shows, what its study must ask for, and what it is drawn from.
 
-    `observables` are words of `configuration.grids`; `source` is "ensemble", or the stage of the
-    files of single samples: "fields", "close_up", "release".
+    `room` is the package of `grainmodes.figures` that holds its module; `observables` are words of
+    `configuration.grids`; `source` is "ensemble", or the stage of the files of single samples:
+    "fields", "close_up", "release".
     """
 
+    room: str
     title: str
     observables: tuple[str, ...]
     source: str = "ensemble"
 
 
 FIGURES = {
-    "g_phi": Figure("Rigidity against area fraction (paper A, Fig. 4)", ("rigidity",)),
+    "g_phi": Figure("paper_a", "Rigidity against area fraction (paper A, Fig. 4)", ("rigidity",)),
     "g_kt": Figure(
-        "Rigidity against tangential stiffness (paper A, Fig. 5)", ("rigidity", "friction")
+        "paper_a",
+        "Rigidity against tangential stiffness (paper A, Fig. 5)",
+        ("rigidity", "friction"),
     ),
     "g_nonaffine": Figure(
-        "Non-affine rigidity, unloaded and loaded step strain (paper A, Fig. 6)", ("rigidity",)
+        "paper_a",
+        "Non-affine rigidity, unloaded and loaded step strain (paper A, Fig. 6)",
+        ("rigidity",),
     ),
     "participation": Figure(
+        "paper_a",
         "Translational and rotational fractions of the modes (paper A, Fig. 8)",
         ("modes", "friction"),
     ),
-    "dos": Figure("Density of states (paper A, Fig. 9)", ("spectrum",)),
+    "dos": Figure("paper_a", "Density of states (paper A, Fig. 9)", ("spectrum",)),
     "dos_scaled": Figure(
-        "Density of states, scaled by omega_R (paper A, Fig. 10)", ("spectrum", "friction")
+        "paper_a",
+        "Density of states, scaled by omega_R (paper A, Fig. 10)",
+        ("spectrum", "friction"),
     ),
     "affine_fields": Figure(
+        "paper_a",
         "Affine and non-affine displacements of a step strain (paper A, Fig. 2)",
         ("fields",),
         "fields",
     ),
     "nonaffine_field": Figure(
+        "paper_a",
         "Non-affine displacements, theory and simulation (paper A, Fig. 3)",
         ("fields", "all_modes"),
         "fields",
     ),
     "eigenvectors": Figure(
+        "paper_a",
         "Eigenvectors as displacements and rotations (paper A, Fig. 7)",
         ("fields", "friction"),
         "fields",
     ),
     "dos_frictionless": Figure(
+        "paper_a",
         "Density of states at weak friction and without (paper A, Fig. 11)",
         ("spectrum", "friction", "frictionless"),
     ),
     "dos_hessian": Figure(
+        "paper_a",
         "Density of states of the Jacobian and of the effective Hessian (paper A, Fig. 12)",
         ("spectrum", "friction", "hessian"),
     ),
     "dos_rattlers": Figure(
+        "paper_a",
         "Density of states with and without rattlers (paper A, Fig. 13)",
         ("spectrum", "friction", "rattlers"),
     ),
     "participation_ratio": Figure(
-        "Participation ratio of the modes (paper A, Fig. 14)", ("modes", "friction")
+        "paper_a", "Participation ratio of the modes (paper A, Fig. 14)", ("modes", "friction")
     ),
     "dos_n": Figure(
+        "paper_a",
         "Density of states for several N (paper A, Fig. 15)",
         ("spectrum", "friction", "several_n"),
     ),
     "dos_phi": Figure(
+        "paper_a",
         "Density of states towards jamming (paper A, Fig. 16)",
         ("spectrum", "friction", "several_phi"),
     ),
     "stress_strain": Figure(
-        "Stress against strain in one sample (paper B, Figs. 1, 8)", ("shear",)
+        "paper_b", "Stress against strain in one sample (paper B, Figs. 1, 8)", ("shear",)
     ),
     "stress_brackets": Figure(
+        "paper_b",
         "Stress against strain, events bracketed and not (paper B, Fig. 2)",
         ("shear", "unbracketed"),
     ),
     "rigidity_strain": Figure(
-        "Rigidity and smallest eigenvalue at small strain (paper B, Fig. 7)", ("shear",)
+        "paper_b", "Rigidity and smallest eigenvalue at small strain (paper B, Fig. 7)", ("shear",)
     ),
-    "rigidity_mean": Figure("Mean rigidity against strain (paper B, Fig. 9)", ("shear",)),
+    "rigidity_mean": Figure(
+        "paper_b", "Mean rigidity against strain (paper B, Fig. 9)", ("shear",)
+    ),
     "event_states": Figure(
+        "paper_b",
         "Lowest eigenvalue and rigidity around an event (paper B, Figs. 3 and 13)",
         ("close_up",),
         "close_up",
     ),
     "event_eigenvectors": Figure(
+        "paper_b",
         "Lowest eigenvector before and after an event (paper B, Fig. 4)",
         ("close_up",),
         "close_up",
     ),
     "event_rate": Figure(
+        "paper_b",
         "Non-affine displacement rate after an event, theory and simulation (paper B, Fig. 5)",
         ("close_up",),
         "close_up",
     ),
     "event_displacement": Figure(
-        "Non-affine displacement in an event (paper B, Fig. 6)", ("close_up",), "close_up"
+        "paper_b",
+        "Non-affine displacement in an event (paper B, Fig. 6)",
+        ("close_up",),
+        "close_up",
     ),
     "tangential_error": Figure(
+        "paper_b",
         "Normal part of the integral of tangential velocities (paper B, Fig. 10)",
         ("close_up", "friction"),
         "close_up",
     ),
     "event_brackets": Figure(
+        "paper_b",
         "Stress and strain of an event in closer brackets (paper B, Figs. 11 and 12)",
         ("close_up",),
         "close_up",
     ),
     "pair_birth": Figure(
+        "paper_c",
         "Two real eigenvalues become a complex pair (paper C, Fig. 1)",
         ("complex_pairs", "friction"),
     ),
     "pair_overlap": Figure(
+        "paper_c",
         "Scalar products of eigenvectors around a complex pair (paper C, Figs. 2 and 3)",
         ("complex_pairs", "friction"),
     ),
     "pair_exponent": Figure(
+        "paper_c",
         "Difference of two eigenvalues against the distance to gamma_c (paper C, Fig. 4)",
         ("complex_pairs", "friction"),
     ),
     "release_spirals": Figure(
+        "paper_c",
         "Trajectories of the grains in a released complex pair (paper C, Fig. 5)",
         ("release", "friction"),
         "release",
     ),
     "release_growth": Figure(
+        "paper_c",
         "Growth of M(t) and A(t) in the linear regime (paper C, Fig. 6)",
         ("release", "friction"),
         "release",
     ),
     "release_fate": Figure(
-        "Long-time fate of released states (paper C, Fig. 7)", ("release", "friction"), "release"
+        "paper_c",
+        "Long-time fate of released states (paper C, Fig. 7)",
+        ("release", "friction"),
+        "release",
     ),
     "release_spectrum": Figure(
-        "Complex pairs along a release (paper C, Fig. 8)", ("release", "friction"), "release"
+        "paper_c",
+        "Complex pairs along a release (paper C, Fig. 8)",
+        ("release", "friction"),
+        "release",
     ),
     "release_contacts": Figure(
-        "Contacts along a release (paper C, Fig. 9)", ("release", "friction"), "release"
+        "paper_c", "Contacts along a release (paper C, Fig. 9)", ("release", "friction"), "release"
     ),
     "release_pressure": Figure(
+        "paper_c",
         "Pressures of contacts and grains before and after a release (paper C, Fig. 10)",
         ("release", "friction"),
         "release",
     ),
     "release_damping": Figure(
-        "Release under damping (paper C, Fig. 11)", ("release", "friction"), "release"
+        "paper_c", "Release under damping (paper C, Fig. 11)", ("release", "friction"), "release"
     ),
     "pair_variants": Figure(
-        "Complex pairs under several tangential laws (paper C, Fig. 12(a))", ("variants",)
+        "paper_c",
+        "Complex pairs under several tangential laws (paper C, Fig. 12(a))",
+        ("variants",),
     ),
 }
 """Every figure. `rigidity` figures show the simulated step strain as well where a study has it;

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from grainmodes.binning import Binned
 from grainmodes.ensemble import fineness
 from grainmodes.ensemble.reading import variable
 from grainmodes.ensemble.spectra import shared_edges, spectrum
 from grainmodes.planning.seeds import LEAST, Need, needed
+from grainmodes.statistics.binning import Binned
 
 if TYPE_CHECKING:
     import xarray as xr

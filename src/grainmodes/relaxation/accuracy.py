@@ -15,7 +15,7 @@ import numpy as np
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.neighbours import RESOLUTION
-from grainmodes.packing import Packing
+from grainmodes.packing.state import Packing
 from grainmodes.relaxation.dynamics import Motion, move
 
 TIME_STEP = 1e-3

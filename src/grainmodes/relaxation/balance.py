@@ -22,13 +22,13 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse as sparse
 
-from grainmodes.contacts import Contacts, rattlers
-from grainmodes.forces import is_frictionless, largest, net_force, tangential_forces
-from grainmodes.jacobian import assemble, stiffness_of
 from grainmodes.kernels.laws import Interaction
-from grainmodes.linear import PinnedFactor
-from grainmodes.packing import Packing
-from grainmodes.relaxation.inherited import Fitted, Origin
+from grainmodes.linalg.pinned_factor import PinnedFactor
+from grainmodes.packing.contacts import Contacts, rattlers
+from grainmodes.packing.forces import is_frictionless, largest, net_force, tangential_forces
+from grainmodes.packing.jacobian import assemble, stiffness_of
+from grainmodes.packing.state import Packing
+from grainmodes.relaxation.low_rank_update import Fitted, Origin
 from grainmodes.relaxation.newton import moved_by, slipped
 
 GAIN = 0.1

@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from grainmodes.contacts import History
-from grainmodes.forces import largest, net_force
 from grainmodes.kernels.dynamics import Grains, Stop, carried, integrate
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.neighbours import Neighbours, find_neighbours
-from grainmodes.packing import Packing, find_contacts
+from grainmodes.packing.contacts import History
+from grainmodes.packing.forces import largest, net_force
+from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.relaxation.result import Relaxed
 
 SKIN = 0.2

@@ -16,8 +16,8 @@ from dataclasses import replace
 import numpy as np
 
 from grainmodes.kernels.laws import Interaction
-from grainmodes.linear import FloppyError
-from grainmodes.packing import Packing
+from grainmodes.linalg.pinned_factor import FloppyError
+from grainmodes.packing.state import Packing
 from grainmodes.relaxation.balance import GAIN, Balance, Inherited
 from grainmodes.relaxation.rattlers import moved_out
 

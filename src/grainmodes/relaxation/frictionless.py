@@ -15,11 +15,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from grainmodes.contacts import rattlers
-from grainmodes.forces import largest, mean_contact_force, net_force
 from grainmodes.kernels.fire import FireSettings, fire
 from grainmodes.kernels.laws import Frictionless, Interaction
-from grainmodes.packing import Packing, find_contacts
+from grainmodes.packing.contacts import rattlers
+from grainmodes.packing.forces import largest, mean_contact_force, net_force
+from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.relaxation.newton import newton
 from grainmodes.relaxation.rattlers import moved_out
 from grainmodes.relaxation.result import Relaxed

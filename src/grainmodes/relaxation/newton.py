@@ -18,13 +18,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from grainmodes.contacts import Contacts, History
-from grainmodes.forces import is_frictionless, largest, net_force
-from grainmodes.jacobian import jacobian
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.springs import kept_displacement, stretched
-from grainmodes.linear import FloppyError, PinnedFactor
-from grainmodes.packing import Packing, find_contacts
+from grainmodes.linalg.pinned_factor import FloppyError, PinnedFactor
+from grainmodes.packing.contacts import Contacts, History
+from grainmodes.packing.forces import is_frictionless, largest, net_force
+from grainmodes.packing.jacobian import jacobian
+from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.relaxation.result import Relaxed
 
 SHORTEST_STEP = 0.1

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.contacts import Contacts
-from grainmodes.forces import net_force
 from grainmodes.kernels.contacts import normal_slope
 from grainmodes.kernels.laws import Frictionless, Interaction
-from grainmodes.packing import Packing, find_contacts
+from grainmodes.packing.contacts import Contacts
+from grainmodes.packing.forces import net_force
+from grainmodes.packing.state import Packing, find_contacts
 
 TRIES = 100
 """Moves after which a rattler is left touching: it may be caught between two neighbours."""

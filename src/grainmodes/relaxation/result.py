@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from grainmodes.packing import Packing
+from grainmodes.packing.state import Packing
 
 
 @dataclass(frozen=True)

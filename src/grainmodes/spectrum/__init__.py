@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing import Packing
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.spectra import SpectrumChoices
-from grainmodes.spectrum.bands import Bands, band_averages
+from grainmodes.spectrum.binned_averages import Bands, band_averages
 from grainmodes.spectrum.full import Spectrum, full_spectrum
 from grainmodes.spectrum.problem import Problem, problem
 

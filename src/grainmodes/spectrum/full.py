@@ -17,7 +17,7 @@ from functools import partial
 import numpy as np
 
 from grainmodes.parameters.spectra import DENSE_MODES_UP_TO, SpectrumChoices
-from grainmodes.spectrum import dense, windows
+from grainmodes.spectrum import dense, spectrum_slicing
 from grainmodes.spectrum.measures import Measured
 from grainmodes.spectrum.problem import Problem
 
@@ -64,7 +64,7 @@ def full_spectrum(
 
     Raises:
         ValueError: windows are asked for and J is not symmetric.
-        ArithmeticError: eigenpairs are missing (windows).
+        ArithmeticError: eigenpairs are missing (spectrum_slicing).
         numpy.linalg.LinAlgError: LAPACK did not converge.
     """
     forces = np.zeros((problem.size, 0)) if forces is None else forces
@@ -109,9 +109,9 @@ def floor(problem: Problem) -> float:
 
 def _window_by_window(problem: Problem, shift, forces, processes: int) -> list[Measured]:
     """The modes of every λ ≥ `floor`."""
-    parts = windows.split(shift, floor(problem), problem.bound)
+    parts = spectrum_slicing.split(shift, floor(problem), problem.bound)
     measure = partial(Measured.of, problem.matrix, problem.k, forces)
-    return windows.measured(problem, shift.name, parts, measure, processes)
+    return spectrum_slicing.measured(problem, shift.name, parts, measure, processes)
 
 
 def _zero_modes(count: int, forces: int) -> Measured:

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sparse
 
-from grainmodes.jacobian import jacobian
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing import Packing, backbone, find_contacts
-from grainmodes.shift import SymmetricShift
+from grainmodes.linalg.symmetric_shift import SymmetricShift
+from grainmodes.packing.jacobian import jacobian
+from grainmodes.packing.state import Packing, backbone, find_contacts
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ import csv
 
 import numpy as np
 
-import claimed
+import claim_fixtures
 from grainmodes.claims import check, report
 from grainmodes.cli import main
 
@@ -13,7 +13,7 @@ NAMES = [f"{paper}{number + 1}" for paper, count in CLAIMED.items() for number i
 
 
 def test_reports_hold_every_claim(tmp_path):
-    found = check(claimed.ensemble().drop_vars("g_simulated"))
+    found = check(claim_fixtures.ensemble().drop_vars("g_simulated"))
     for suffix in report.FORMS:
         report.write(found, tmp_path / f"claims{suffix}")
     with open(tmp_path / "claims.csv", encoding="utf-8", newline="") as file:
@@ -31,7 +31,7 @@ def test_reports_hold_every_claim(tmp_path):
 
 def test_the_command_prints_writes_and_refuses(tmp_path, capsys):
     path = tmp_path / "ensemble.nc"
-    claimed.ensemble().assign_coords(mode=np.arange(192)).to_netcdf(path)
+    claim_fixtures.ensemble().assign_coords(mode=np.arange(192)).to_netcdf(path)
     assert main(["claims", str(path)]) == 0
     assert capsys.readouterr().out.startswith("A1   holds")
     assert main(["claims", str(path), "-o", str(tmp_path / "a.md"), str(tmp_path / "a.csv")]) == 0

@@ -3,14 +3,10 @@
 import numpy as np
 import pytest
 
-import claimed
-from doctored import DOCTORED, SECOND
+import claim_fixtures
+from claim_mutants import DOCTORED, SECOND
 from grainmodes.claims import check
-from grainmodes.claims.claim import (
-    CONTRADICTED,
-    HOLDS,
-    NOT_ASKED,
-)
+from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED
 from grainmodes.claims.paper_a import CLAIMS
 
 NAMES = [f"A{number}" for number in range(1, 20)]
@@ -21,7 +17,7 @@ def verdicts(ensemble):
 
 
 def test_every_claim_holds_where_it_should():
-    found = verdicts(claimed.ensemble())
+    found = verdicts(claim_fixtures.ensemble())
     assert list(found) == NAMES
     assert {name: v.verdict for name, v in found.items() if v.verdict != HOLDS} == {}
     assert all(np.isfinite([v.measured, v.uncertainty]).all() for v in found.values())
@@ -29,7 +25,7 @@ def test_every_claim_holds_where_it_should():
 
 @pytest.mark.parametrize(("name", "doctor"), [*DOCTORED.items(), *SECOND.items()])
 def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
-    ensemble = claimed.ensemble()
+    ensemble = claim_fixtures.ensemble()
     doctor(ensemble)
     fallen = {n: v.verdict for n, v in verdicts(ensemble).items() if v.verdict != HOLDS}
     assert fallen == {name: CONTRADICTED}
@@ -60,7 +56,7 @@ NEEDED = {
 
 @pytest.mark.parametrize("name", NAMES)
 def test_what_the_ensemble_lacks_is_not_asked_and_named(name):
-    found = verdicts(claimed.ensemble().drop_vars(NEEDED[name]))
+    found = verdicts(claim_fixtures.ensemble().drop_vars(NEEDED[name]))
     assert found[name].verdict == NOT_ASKED
     assert NEEDED[name] in found[name].explanation
     others = {n: v.verdict for n, v in found.items() if NEEDED[name] not in v.explanation}
@@ -77,7 +73,7 @@ def test_what_the_ensemble_lacks_is_not_asked_and_named(name):
     ],
 )
 def test_points_that_the_grid_lacks_are_named(grid, names, lack):
-    found = verdicts(claimed.ensemble().sel(grid))
+    found = verdicts(claim_fixtures.ensemble().sel(grid))
     for name in names:
         assert found[name].verdict == NOT_ASKED
         assert lack in found[name].explanation
@@ -87,19 +83,19 @@ def test_points_that_the_grid_lacks_are_named(grid, names, lack):
     "grid", [{"kt": [0.0]}, {"kt": [10.0]}, {"phi": [0.90], "kt": [1e-8]}, {"seed": [0]}]
 )
 def test_an_ensemble_of_few_points_has_no_verdict_against_a_claim(grid):
-    found = check(claimed.ensemble().sel(grid), CLAIMS)
+    found = check(claim_fixtures.ensemble().sel(grid), CLAIMS)
     assert [verdict.claim for verdict in found] == NAMES
     assert CONTRADICTED not in {verdict.verdict for verdict in found}
 
 
 def test_points_that_were_not_computed_change_no_verdict():
-    ensemble = claimed.ensemble()
+    ensemble = claim_fixtures.ensemble()
     larger = ensemble.reindex(n=[32, 64, 128], phi=[0.86, 0.87, 0.88, 0.90])
     assert {v.verdict for v in check(larger, CLAIMS)} == {HOLDS}
 
 
 def test_failed_and_unjammed_samples_are_left_out():
-    ensemble = claimed.ensemble()
+    ensemble = claim_fixtures.ensemble()
     ensemble["g_simulated"][..., 0] *= 3.0
     ensemble["converged"][..., 0] = 0.0
     ensemble["g_simulated"][..., 1] = 7.0
@@ -108,7 +104,7 @@ def test_failed_and_unjammed_samples_are_left_out():
 
 
 def test_bins_give_the_verdicts_of_the_modes():
-    by_mode, by_bin = claimed.ensemble(), claimed.bins_of(claimed.ensemble())
+    by_mode, by_bin = claim_fixtures.ensemble(), claim_fixtures.bins_of(claim_fixtures.ensemble())
     for name in ("A7", "A8", "A9", "A10", "A11", "A14", "A15"):
         modes, bins = verdicts(by_mode)[name], verdicts(by_bin)[name]
         assert bins.verdict == modes.verdict == HOLDS
@@ -116,13 +112,13 @@ def test_bins_give_the_verdicts_of_the_modes():
 
 
 def test_the_loaded_step_stands_beside_the_sign_change():
-    verdict = verdicts(claimed.ensemble())["A6"]
+    verdict = verdicts(claim_fixtures.ensemble())["A6"]
     assert "positive in 0 of 144 samples" in verdict.explanation
     assert "2 ± " in verdict.explanation
 
 
 def test_a_sign_that_never_changes_contradicts_the_sign_change():
-    ensemble = claimed.ensemble()
+    ensemble = claim_fixtures.ensemble()
     ensemble["g_nonaffine"] = -0.01 - np.abs(ensemble["g_nonaffine"])
     verdict = verdicts(ensemble)["A6"]
     assert (verdict.verdict, verdict.measured) == (CONTRADICTED, 10.0)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-import claimed
-import claimed_pairs
+import claim_fixtures
+import claim_fixtures_pairs
 from grainmodes.claims import CLAIMS, check, paper_c
 from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED
 
@@ -45,14 +45,14 @@ def verdicts(ensemble, claims=paper_c.CLAIMS):
 
 
 def test_the_claims_of_three_papers_stand_in_one_table():
-    found = verdicts(claimed_pairs.ensemble(), CLAIMS)
+    found = verdicts(claim_fixtures_pairs.ensemble(), CLAIMS)
     assert [name for name in found if name.startswith("C")][: len(NAMES)] == list(NAMES)
     assert {found[name].verdict for name in NAMES} == {HOLDS}
 
 
 @pytest.mark.parametrize(("name", "doctor"), DOCTORED)
 def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
-    ensemble = claimed_pairs.ensemble()
+    ensemble = claim_fixtures_pairs.ensemble()
     doctor(ensemble)
     found = verdicts(ensemble)
     fallen = {n: found[n].verdict for n in NAMES if found[n].verdict != HOLDS}
@@ -61,21 +61,21 @@ def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
 
 def test_the_product_is_taken_to_the_point_itself():
     """At the nearest states it is 1 − 1e-2; a straight line takes it to 1."""
-    ensemble = claimed_pairs.ensemble()
+    ensemble = claim_fixtures_pairs.ensemble()
     steeper = 1.0 - 1e4 * (1.0 - ensemble["exceptional_product"])
     ensemble["exceptional_product"] = steeper
     assert verdicts(ensemble)["C3"].verdict == HOLDS
 
 
 def test_what_the_ensemble_lacks_is_not_asked_and_named():
-    found = verdicts(claimed.ensemble())
+    found = verdicts(claim_fixtures.ensemble())
     assert {found[name].verdict for name in NAMES} == {NOT_ASKED}
     assert "pair_count" in found["C1"].explanation
     assert "located_kind" in found["C2"].explanation
 
 
 def test_other_kinds_than_coalescences_are_left_out():
-    ensemble = claimed_pairs.ensemble()
+    ensemble = claim_fixtures_pairs.ensemble()
     for name in ("located_kind", "located_exponent_real"):
         ensemble[name][..., 0] = np.nan if "exponent" in name else 2.0
     found = verdicts(ensemble)["C2"]

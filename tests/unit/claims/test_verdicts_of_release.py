@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-import claimed
-import claimed_release
-from doctored_release import DOCTORED
+import claim_fixtures
+import claim_fixtures_release
+from claim_mutants_release import DOCTORED
 from grainmodes.claims import CLAIMS, check, paper_c
 from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED, NOT_RESOLVED
 
@@ -24,21 +24,21 @@ def verdicts(ensemble):
 
 
 def test_they_hold_and_stand_in_the_table_of_all():
-    assert {v.verdict for v in verdicts(claimed_release.ensemble()).values()} == {HOLDS}
-    everything = [v.claim for v in check(claimed_release.ensemble(), CLAIMS)]
+    assert {v.verdict for v in verdicts(claim_fixtures_release.ensemble()).values()} == {HOLDS}
+    everything = [v.claim for v in check(claim_fixtures_release.ensemble(), CLAIMS)]
     assert [name for name in everything if name in NAMES] == NAMES
 
 
 @pytest.mark.parametrize(("name", "doctor"), DOCTORED)
 def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
-    ensemble = claimed_release.ensemble()
+    ensemble = claim_fixtures_release.ensemble()
     doctor(ensemble)
     found = verdicts(ensemble)
     assert {n: v.verdict for n, v in found.items() if v.verdict != HOLDS} == {name: CONTRADICTED}
 
 
 def test_a_late_end_of_the_growth_contradicts_it():
-    ensemble = claimed_release.ensemble()
+    ensemble = claim_fixtures_release.ensemble()
     later = ensemble["release_change_time"] + 5.0 / ensemble["release_rate_linear"]
     ensemble["release_end_time"] = later
     assert verdicts(ensemble)["C5"].verdict == CONTRADICTED
@@ -46,22 +46,22 @@ def test_a_late_end_of_the_growth_contradicts_it():
 
 @pytest.mark.parametrize("name", NEEDED)
 def test_what_the_ensemble_lacks_is_not_asked_and_named(name):
-    verdict = verdicts(claimed_release.ensemble().drop_vars(NEEDED[name]))[name]
+    verdict = verdicts(claim_fixtures_release.ensemble().drop_vars(NEEDED[name]))[name]
     assert verdict.verdict == NOT_ASKED
     assert NEEDED[name] in verdict.explanation
 
 
 def test_without_releases_nothing_is_asked():
-    assert {v.verdict for v in verdicts(claimed.ensemble()).values()} == {NOT_ASKED}
+    assert {v.verdict for v in verdicts(claim_fixtures.ensemble()).values()} == {NOT_ASKED}
 
 
 def test_one_sample_decides_nothing():
-    one = claimed_release.ensemble().isel(seed=[0])
+    one = claim_fixtures_release.ensemble().isel(seed=[0])
     assert {v.verdict for v in verdicts(one).values()} <= {NOT_ASKED, NOT_RESOLVED}
 
 
 def test_samples_without_a_second_instability_are_told():
-    ensemble = claimed_release.ensemble()
+    ensemble = claim_fixtures_release.ensemble()
     ensemble["release_second_time"][..., :3, :] = np.nan
     verdict = verdicts(ensemble)["C6"]
     assert verdict.verdict == HOLDS
@@ -73,14 +73,14 @@ def test_samples_without_a_second_instability_are_told():
 
 
 def test_the_depth_and_the_run_in_between_are_told():
-    found = verdicts(claimed_release.ensemble())
+    found = verdicts(claim_fixtures_release.ensemble())
     assert "M and A swing by 0.2" in found["C5"].explanation
     assert "η_0 = 1 ω_i" in found["C7"].explanation
     assert "at 0.5" in found["C7"].explanation
 
 
 def test_which_runs_come_to_a_second_instability_is_told():
-    ensemble = claimed_release.ensemble()
+    ensemble = claim_fixtures_release.ensemble()
     second = ensemble["release_second_time"]
     ensemble["release_second_time"] = second.where(second["damping"] == 0)
     told = verdicts(ensemble)["C7"].explanation

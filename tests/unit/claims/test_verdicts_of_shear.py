@@ -5,9 +5,9 @@ import json
 import numpy as np
 import pytest
 
-import claimed
-import claimed_shear
-from doctored_shear import DOCTORED, SECOND
+import claim_fixtures
+import claim_fixtures_shear
+from claim_mutants_shear import DOCTORED, SECOND
 from grainmodes.claims import CLAIMS, check, paper_b
 from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED, NOT_RESOLVED
 
@@ -31,7 +31,7 @@ def verdicts(ensemble, claims=paper_b.CLAIMS):
 
 
 def test_both_papers_stand_in_one_table():
-    found = verdicts(claimed_shear.ensemble(), CLAIMS)
+    found = verdicts(claim_fixtures_shear.ensemble(), CLAIMS)
     of_c = [name for name in found if name.startswith("C")]
     assert list(found) == [*(f"A{number}" for number in range(1, 20)), *NAMES, *of_c]
     assert {name for name, v in found.items() if v.verdict == NOT_ASKED} == set(of_c)
@@ -40,7 +40,7 @@ def test_both_papers_stand_in_one_table():
 
 @pytest.mark.parametrize(("name", "doctor"), [*DOCTORED.items(), *SECOND.items()])
 def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
-    ensemble = claimed_shear.ensemble()
+    ensemble = claim_fixtures_shear.ensemble()
     doctor(ensemble)
     found = verdicts(ensemble, CLAIMS)
     fallen = {n: v.verdict for n, v in found.items() if v.verdict not in (HOLDS, NOT_ASKED)}
@@ -48,7 +48,7 @@ def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
 
 
 def test_a_simulation_that_differs_contradicts_the_rigidity_before_strain():
-    ensemble = claimed_shear.ensemble()
+    ensemble = claim_fixtures_shear.ensemble()
     ensemble["g_simulated"] = 1.05 * ensemble["g_simulated"]
     fallen = {n: v.verdict for n, v in verdicts(ensemble).items() if v.verdict != HOLDS}
     assert fallen == {"B10": CONTRADICTED}
@@ -56,13 +56,13 @@ def test_a_simulation_that_differs_contradicts_the_rigidity_before_strain():
 
 @pytest.mark.parametrize("name", NEEDED)
 def test_what_the_ensemble_lacks_is_not_asked_and_named(name):
-    verdict = verdicts(claimed_shear.ensemble().drop_vars(NEEDED[name]))[name]
+    verdict = verdicts(claim_fixtures_shear.ensemble().drop_vars(NEEDED[name]))[name]
     assert verdict.verdict == NOT_ASKED
     assert NEEDED[name] in verdict.explanation
 
 
 def test_hertzian_grains_are_not_those_of_paper_b():
-    ensemble = claimed_shear.ensemble()
+    ensemble = claim_fixtures_shear.ensemble()
     ensemble.attrs["config"] = json.dumps({})
     found = verdicts(ensemble).values()
     assert {verdict.verdict for verdict in found} == {NOT_ASKED}
@@ -70,16 +70,16 @@ def test_hertzian_grains_are_not_those_of_paper_b():
 
 
 def test_without_shear_only_the_rigidity_before_strain_is_asked():
-    ensemble = claimed.ensemble()
+    ensemble = claim_fixtures.ensemble()
     ensemble.attrs["config"] = json.dumps({"contact_law": {"normal": "harmonic"}})
     found = verdicts(ensemble)
     assert {name for name, v in found.items() if v.verdict != NOT_ASKED} == {"B10"}
 
 
 def test_one_sample_and_no_event_decide_nothing():
-    one = claimed_shear.ensemble().isel(seed=[0])
+    one = claim_fixtures_shear.ensemble().isel(seed=[0])
     assert {v.verdict for v in verdicts(one).values()} <= {NOT_ASKED, NOT_RESOLVED}
-    calm = claimed_shear.ensemble()
+    calm = claim_fixtures_shear.ensemble()
     for name in list(calm):
         if name.startswith("event_"):
             calm[name] = calm[name] * np.nan
@@ -89,14 +89,14 @@ def test_one_sample_and_no_event_decide_nothing():
 
 
 def test_failed_samples_are_left_out():
-    ensemble = claimed_shear.ensemble()
+    ensemble = claim_fixtures_shear.ensemble()
     ensemble["curve_g_xy"][..., 0, :] *= 3.0
     ensemble["converged"][..., 0] = 0.0
     assert {v.verdict for v in verdicts(ensemble).values()} == {HOLDS}
 
 
 def test_the_same_network_before_and_after_an_event_is_told():
-    ensemble = claimed_shear.ensemble()
+    ensemble = claim_fixtures_shear.ensemble()
     ensemble["event_reopened"] = ensemble["event_opened"].copy()
     ensemble["event_opened"] = 0.0 * ensemble["event_opened"]
     verdict = verdicts(ensemble)["B9"]
@@ -105,7 +105,7 @@ def test_the_same_network_before_and_after_an_event_is_told():
 
 
 def test_complex_pairs_are_counted():
-    ensemble = claimed_shear.ensemble()
+    ensemble = claim_fixtures_shear.ensemble()
     pairs = ensemble["event_complex_pairs_after"]
     ensemble["event_complex_pairs_after"] = pairs + (pairs["event"] == 2)
     assert "complex pairs in 6 of 30 states after events" in verdicts(ensemble)["B6"].explanation

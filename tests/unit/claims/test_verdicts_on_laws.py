@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-import claimed_variants
+import claim_fixtures_laws
 from grainmodes.claims import CLAIMS, check
 from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED
 from grainmodes.claims.paper_c import variants
@@ -36,7 +36,7 @@ def sharp_grows(ensemble):
 
 
 def test_both_hold_and_name_their_numbers():
-    found = verdicts(claimed_variants.ensemble())
+    found = verdicts(claim_fixtures_laws.ensemble())
     assert {name: v.verdict for name, v in found.items()} == {"C8": HOLDS, "C9": HOLDS}
     assert "1.5 ± 0.00" in found["C8"].explanation
     assert "slip make pairs in 0.5 ± 0 of the states; of 30 released ones 0 grow" in (
@@ -54,7 +54,7 @@ def test_both_hold_and_name_their_numbers():
     ],
 )
 def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
-    ensemble = claimed_variants.ensemble()
+    ensemble = claim_fixtures_laws.ensemble()
     doctor(ensemble)
     found = verdicts(ensemble, CLAIMS)
     fallen = {n: v.verdict for n, v in found.items() if v.verdict not in (HOLDS, NOT_ASKED)}
@@ -62,9 +62,9 @@ def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
 
 
 def test_one_state_that_grows_is_told_before_it_decides():
-    ensemble = claimed_variants.ensemble()
+    ensemble = claim_fixtures_laws.ensemble()
     growth = ensemble["variant_growth_sharp_coulomb"].to_numpy()
-    growth[..., 0, 1] = 0.4 * claimed_variants.RATE
+    growth[..., 0, 1] = 0.4 * claim_fixtures_laws.RATE
     ensemble["variant_growth_sharp_coulomb"].values = growth
     verdict = verdicts(ensemble)["C9"]
     assert verdict.verdict != HOLDS
@@ -72,7 +72,7 @@ def test_one_state_that_grows_is_told_before_it_decides():
 
 
 def test_hertzian_grains_and_other_observables_are_not_asked():
-    ensemble = claimed_variants.ensemble()
+    ensemble = claim_fixtures_laws.ensemble()
     without = ensemble.drop_vars("variant_pairs_slipping_sharp_coulomb")
     assert verdicts(without)["C9"].verdict == NOT_ASKED
     assert verdicts(without)["C8"].verdict == HOLDS
@@ -81,7 +81,7 @@ def test_hertzian_grains_and_other_observables_are_not_asked():
 
 
 def test_a_sharp_law_without_slip_is_judged_by_its_springs_alone():
-    ensemble = claimed_variants.ensemble()
+    ensemble = claim_fixtures_laws.ensemble()
     for name, value in (("pairs_slipping", 0.0), ("rate", 0.0), ("growth", np.nan)):
         ensemble[f"variant_{name}_sharp_coulomb"] *= value
     verdict = verdicts(ensemble)["C9"]

@@ -6,10 +6,10 @@ from copy import deepcopy
 import pytest
 import yaml
 
+from cost_fixtures import GRID, TABLE
 from grainmodes.cli import main
 from grainmodes.configuration import read_scene
 from grainmodes.cost import COSTS, estimate
-from priced import GRID, TABLE
 from scenes import CONFIG
 
 

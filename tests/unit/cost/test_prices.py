@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
+from cost_fixtures import FREE, TABLE, jobs, observing, priced, scene_with, total
 from grainmodes.cost import estimate, wall_seconds
 from grainmodes.parameters.compression import Compression
-from priced import FREE, TABLE, jobs, observing, priced, scene_with, total
 
 
 @pytest.mark.parametrize("stage", ["compress", "pack", "rigidity"])

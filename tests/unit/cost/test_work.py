@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import pytest
 
+from cost_fixtures import TABLE
 from grainmodes.cost.work import work
 from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import Shear
-from priced import TABLE
 
 CHOICES = SpectrumChoices(factorisation="superlu", fineness=1.0)
 PROTOCOL = Protocol(spectrum=CHOICES)

@@ -5,13 +5,13 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import synthetic
 from grainmodes.ensemble.spectra import spectrum
-from grainmodes.figures import (
+from grainmodes.figures.paper_a import (
     dos_frictionless,
     dos_hessian,
     dos_rattlers,
     participation_ratio,
 )
-from grainmodes.figures.selection import Options
+from grainmodes.figures.shared.selection import Options
 
 
 def test_frictionless_grains_have_the_translational_band_alone(whole_ensemble):

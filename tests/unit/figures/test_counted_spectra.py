@@ -9,14 +9,9 @@ import synthetic
 from grainmodes.dataset.files import BlockError, write_block
 from grainmodes.ensemble import merge_blocks, open_ensemble, write_ensemble
 from grainmodes.ensemble.spectra import counted, spectrum
-from grainmodes.figures import (
-    dos,
-    dos_phi,
-    participation,
-    participation_ratio,
-    spectral_rows,
-)
-from grainmodes.figures.selection import Options
+from grainmodes.figures.paper_a import dos, dos_phi, participation, participation_ratio
+from grainmodes.figures.shared import spectral_rows
+from grainmodes.figures.shared.selection import Options
 
 POINT = (16, 0.90, 1e-4)
 

@@ -5,16 +5,16 @@ from numpy.testing import assert_allclose, assert_array_equal
 import synthetic
 from grainmodes.ensemble import open_ensemble, write_ensemble
 from grainmodes.ensemble.spectra import spectrum
-from grainmodes.figures import (
+from grainmodes.figures import draw
+from grainmodes.figures.paper_a import (
     dos,
     dos_frictionless,
     dos_n,
     dos_phi,
     dos_scaled,
-    draw,
     participation,
 )
-from grainmodes.figures.selection import Options
+from grainmodes.figures.shared.selection import Options
 
 
 def test_density_of_states_integrates_to_all_vibrations(ensemble):

@@ -8,10 +8,8 @@ import pytest
 
 import synthetic
 from grainmodes.dataset.files import BlockError
-from grainmodes.figures import (
-    appearance,
-    draw,
-)
+from grainmodes.figures import draw
+from grainmodes.figures.shared import appearance
 from grainmodes.parameters.figures import FIGURES
 from pictures import numbers_of
 

@@ -7,8 +7,8 @@ from matplotlib.figure import Figure
 from numpy.testing import assert_allclose, assert_array_equal
 
 from grainmodes.dataset.files import Block, BlockError, write_block
-from grainmodes.figures import (
-    draw,
+from grainmodes.figures import draw
+from grainmodes.figures.paper_b import (
     event_brackets,
     event_displacement,
     event_eigenvectors,
@@ -16,7 +16,7 @@ from grainmodes.figures import (
     event_states,
     tangential_error,
 )
-from grainmodes.figures.selection import Options
+from grainmodes.figures.shared.selection import Options
 from grainmodes.parameters.figures import FIGURES
 from pictures import numbers_of
 

@@ -9,10 +9,11 @@ from matplotlib.quiver import Quiver
 from numpy.testing import assert_allclose, assert_array_equal
 
 from grainmodes.dataset.files import Block, BlockError, write_block
-from grainmodes.figures import affine_fields, draw, eigenvectors, nonaffine_field
-from grainmodes.figures.field_rows import grains
-from grainmodes.figures.grain_maps import OUTLINED, Scale, draw_map, rounded
-from grainmodes.figures.selection import Options
+from grainmodes.figures import draw
+from grainmodes.figures.paper_a import affine_fields, eigenvectors, nonaffine_field
+from grainmodes.figures.shared.field_rows import grains
+from grainmodes.figures.shared.grain_maps import OUTLINED, Scale, draw_map, rounded
+from grainmodes.figures.shared.selection import Options
 from grainmodes.parameters.figures import FIGURES
 from pictures import numbers_of
 

@@ -7,8 +7,8 @@ from numpy.testing import assert_allclose
 import synthetic
 from grainmodes.ensemble import open_ensemble
 from grainmodes.ensemble.exceptional import samples
-from grainmodes.figures import pair_birth, pair_exponent, pair_overlap
-from grainmodes.figures.selection import Options
+from grainmodes.figures.paper_c import pair_birth, pair_exponent, pair_overlap
+from grainmodes.figures.shared.selection import Options
 
 
 @pytest.fixture(scope="module")

@@ -9,8 +9,8 @@ from PIL import Image
 
 from grainmodes.cli import main
 from grainmodes.dataset.files import Block, BlockError, write_block
-from grainmodes.figures import (
-    draw,
+from grainmodes.figures import draw
+from grainmodes.figures.paper_c import (
     film,
     release_contacts,
     release_damping,
@@ -20,11 +20,11 @@ from grainmodes.figures import (
     release_spectrum,
     release_spirals,
 )
-from grainmodes.figures.release_rows import growing
-from grainmodes.figures.selection import Options
+from grainmodes.figures.shared.release_rows import growing
+from grainmodes.figures.shared.selection import Options
 from grainmodes.parameters.figures import FIGURES
 from grainmodes.parameters.release import Release
-from grainmodes.release_blocks import release_block
+from grainmodes.stages.release import release_block
 from pictures import numbers_of
 from released import pairs_block, state
 

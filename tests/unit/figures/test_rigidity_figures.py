@@ -4,14 +4,10 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 import synthetic
 from grainmodes.ensemble import open_ensemble, write_ensemble
-from grainmodes.figures import (
-    appearance,
-    draw,
-    g_kt,
-    g_nonaffine,
-    g_phi,
-)
-from grainmodes.figures.selection import Options
+from grainmodes.figures import draw
+from grainmodes.figures.paper_a import g_kt, g_nonaffine, g_phi
+from grainmodes.figures.shared import appearance
+from grainmodes.figures.shared.selection import Options
 
 
 def test_rigidity_is_the_mean_over_samples_with_its_error(ensemble):

@@ -4,12 +4,17 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-import claimed_shear
+import claim_fixtures_shear
 import synthetic
 from grainmodes.ensemble import open_ensemble
 from grainmodes.ensemble.curves import curves, points_with_curves
-from grainmodes.figures import rigidity_mean, rigidity_strain, stress_brackets, stress_strain
-from grainmodes.figures.selection import Options
+from grainmodes.figures.paper_b import (
+    rigidity_mean,
+    rigidity_strain,
+    stress_brackets,
+    stress_strain,
+)
+from grainmodes.figures.shared.selection import Options
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +42,7 @@ def test_a_curve_knows_what_happened_in_its_steps(sheared):
 
 
 def test_an_approach_begins_after_the_last_change():
-    curve = curves(claimed_shear.ensemble(), 64, 0.9, 1.0)[0]
+    curve = curves(claim_fixtures_shear.ensemble(), 64, 0.9, 1.0)[0]
     for first, last in curve.approaches:
         assert curve.event[last]
         assert curve.quiet[first:last].all()
@@ -91,8 +96,8 @@ def test_a_sample_that_is_not_there_is_refused(sheared, options, sentence):
 
 
 def test_both_stresses_stand_on_the_grid():
-    table = stress_brackets.table(claimed_shear.ensemble(), Options(n=64))
-    states = np.round(table["strain"] / claimed_shear.STEP)
+    table = stress_brackets.table(claim_fixtures_shear.ensemble(), Options(n=64))
+    states = np.round(table["strain"] / claim_fixtures_shear.STEP)
     np.testing.assert_array_equal(states, np.arange(len(table)))
     ratio = table["unbracketed"] / table["bracketed"]
     np.testing.assert_allclose(ratio[1:], 1.0, atol=2e-4)

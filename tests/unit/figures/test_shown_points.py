@@ -7,15 +7,8 @@ import synthetic
 from grainmodes.dataset.files import read_block, write_block
 from grainmodes.ensemble import merge_blocks, open_ensemble, write_ensemble
 from grainmodes.ensemble.spectra import points_with
-from grainmodes.figures import (
-    dos,
-    dos_frictionless,
-    dos_hessian,
-    dos_n,
-    dos_phi,
-    g_phi,
-)
-from grainmodes.figures.selection import Options
+from grainmodes.figures.paper_a import dos, dos_frictionless, dos_hessian, dos_n, dos_phi, g_phi
+from grainmodes.figures.shared.selection import Options
 
 
 def test_figures_show_the_largest_n_and_spectral_ones_the_largest_phi(tmp_path):

@@ -5,8 +5,8 @@ import pytest
 
 import synthetic
 from grainmodes.ensemble import open_ensemble
-from grainmodes.figures import pair_variants
-from grainmodes.figures.selection import Options
+from grainmodes.figures.paper_c import pair_variants
+from grainmodes.figures.shared.selection import Options
 from grainmodes.parameters.law import TANGENTIAL_LAWS
 
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes import statistics
 from grainmodes.claims.bands import (
     SEPARABLE,
     SHARES,
@@ -25,6 +24,7 @@ from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
 from grainmodes.claims.estimates import Estimate, mean
 from grainmodes.claims.paper_a.words import WEAK
 from grainmodes.claims.samples import TINY, Samples, at, richest, sizes
+from grainmodes.statistics import averages
 
 LOCALISED = 2.0
 """N p below which a mode sits on one grain."""
@@ -59,10 +59,10 @@ def _rattler_modes(samples: Samples, phi: float, kappa: float) -> np.ndarray:
         samples.of(f"{name}_rattlers", phi, kappa)
         for name in ("eigenvalue", "participation_ratio", "mode_count")
     )
-    found = statistics.frequencies(eigenvalue)
+    found = averages.frequencies(eigenvalue)
     decades = np.abs(np.log10(found.frequency / np.sqrt(kappa)) + 1.0)
     near = ((decades < 0.5) & (samples.n * participation < LOCALISED)).sum(axis=1)
-    zero = np.maximum(found.zero - statistics.TRANSLATIONS, 0)
+    zero = np.maximum(found.zero - averages.TRANSLATIONS, 0)
     return np.array([near, zero, count - samples.of("mode_count", phi, kappa)])
 
 

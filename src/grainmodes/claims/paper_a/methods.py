@@ -11,12 +11,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes import statistics
-from grainmodes.binning import occupation
 from grainmodes.claims.bands import spectrum_at
 from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
 from grainmodes.claims.estimates import Estimate, jackknife, mean
 from grainmodes.claims.samples import Samples, at, richest
+from grainmodes.statistics import averages
+from grainmodes.statistics.binning import occupation
 
 SAME_DENSITY = 0.05
 """Area between two densities of states, over the area below one, that a figure does not show."""
@@ -81,7 +81,7 @@ def _counts(samples: Samples, point: tuple, edges: np.ndarray) -> np.ndarray:
         if counted is None:
             raise NotAsked("bin_count or eigenvalue")
         return counted
-    frequency = statistics.frequencies(eigenvalue).frequency
+    frequency = averages.frequencies(eigenvalue).frequency
     rows = [occupation(row[None], of)[0] for row, of in zip(frequency, edges, strict=True)]
     return np.where(np.isfinite(edges[:, 1:]), rows, np.nan)
 

@@ -13,12 +13,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes import statistics
 from grainmodes.claims.bands import Modes, per_sample
 from grainmodes.claims.claim import Outcome, Part, claim, every, text
 from grainmodes.claims.estimates import Estimate, jackknife, mean, relative_difference
 from grainmodes.claims.paper_a.spectra import REGION, spectra_of, within
 from grainmodes.claims.samples import TINY, at
+from grainmodes.statistics import averages
 
 SCALING = 0.01
 """Largest k_T/k_N for which A finds omega_R D to collapse."""
@@ -88,7 +88,7 @@ def _peaks_and_chi_squared(peaks: dict[float, Estimate], counts: dict[float, np.
 
 
 def _chi_squared(counts: np.ndarray, reference: np.ndarray) -> float:
-    pair = [statistics.average(rows.T, np.isfinite(rows.T)) for rows in (counts, reference)]
+    pair = [averages.average(rows.T, np.isfinite(rows.T)) for rows in (counts, reference)]
     variance = sum(of.standard_error**2 for of in pair)
     filled = variance > 0
     return np.mean((pair[0].mean - pair[1].mean)[filled] ** 2 / variance[filled])

@@ -1,0 +1,1 @@
+"""What the project measures of itself: accuracy against time, speeds, growth, cost of effects."""

@@ -1,0 +1,92 @@
+"""How fast an unstable state is left, measured on a motion: C (9)–(13).
+
+    K = M^(−1/2) J M^(−1/2),   K u = λ u,   vᴴ K = λ vᴴ,   Ω = √λ = ω_r + iω_i
+    c = vᴴ M^(1/2) q obeys c̈ = −λ c;   a = (c + i ċ/Ω) / 2 ∝ e^(−iΩt),   ω_i = ln|a(T)/a(0)| / T
+
+so that motion from the balance, q̇ along the mode, gives ω_i without a fit. What is even in q, the
+first nonlinear term and what the balance left over, drops out of half the difference of two motions
+with opposite kicks.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from grainmodes.kernels.damping import Undamped
+from grainmodes.kernels.dynamics import Stop
+from grainmodes.kernels.laws import interaction
+from grainmodes.packing.state import Packing, nonaffine_motion
+from grainmodes.parameters.compression import Compression
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.pairs import PairChoices
+from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.pair_tracking.tracking import PairWalk
+from grainmodes.relaxation.dynamics import move
+from grainmodes.response.stability import INERTIA
+from measurements.accuracy.packings import compressed
+
+RULE = interaction(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, 10.0))
+"""C's law."""
+
+GRAINS = Compression(phi_step=1e-3, large_diameter=1.4, masses="equal")
+"""C's grains."""
+
+SHEAR, PAIRS = Shear(0.02, force_tolerance=2e-15), PairChoices("dense", located=0)
+
+SLOWEST = 5e-3
+"""ω_i t_0 of a state that is worth waiting for."""
+
+KICK = 1e-8
+"""Root of the sum of squares of q̇ at the start, d/t_0."""
+
+GROWN = 3.0
+"""Duration of a motion in 1/ω_i."""
+
+
+class Leaving(NamedTuple):
+    """A balance, Ω of its fastest pair, and M^(1/2) times its vectors: u/M and v, (3N,) complex."""
+
+    packing: Packing
+    omega: complex
+    mode: np.ndarray
+    left: np.ndarray
+
+    def amplitude(self, packing: Packing, velocity: np.ndarray) -> complex:
+        """a of a packing on the move."""
+        moved = nonaffine_motion(self.packing, packing).ravel()
+        c, rate = (np.vdot(self.left, of) for of in (moved, velocity.ravel()))
+        return complex(c + 1j * rate / self.omega) / 2.0
+
+    @property
+    def duration(self) -> float:
+        """Time that `rate` covers, with both kicks, in t_0."""
+        return 2.0 * GROWN / self.omega.imag
+
+    def rate(self, time_step: float) -> float:
+        """ω_i of velocity Verlet with this Δt, in 1/t_0."""
+        kick = KICK * self.mode.real.reshape(-1, 3) / np.linalg.norm(self.mode.real)
+        steps = round(GROWN / (self.omega.imag * time_step))
+        ends = [
+            move(self.packing, sign * kick, RULE, Undamped(), time_step, Stop(0.0, steps))
+            for sign in (1.0, -1.0)
+        ]
+        there, back = (self.amplitude(end.packing, end.velocity) for end in ends)
+        grown = (there - back) / 2.0 / self.amplitude(self.packing, kick)
+        return float(np.log(abs(grown)) / (steps * time_step))
+
+
+def leaving(n: int, seed: int) -> Leaving | None:
+    """The state along a shear that is released, if it does not grow too slowly."""
+    walk = PairWalk.start(compressed(n, seed, 0.9, GRAINS), RULE, SHEAR, PAIRS)
+    while not walk.done:
+        walk.advance()
+    found = walk.unstable
+    if found is None or found.growth < SLOWEST:
+        return None
+    pairs, packing = found.state.pairs, found.state.balance.packing
+    inertia = np.sqrt(packing.mass[:, None] * INERTIA).ravel()
+    right, left = (of[:, found.place] for of in (pairs.right, pairs.left))
+    omega = complex(np.sqrt(pairs.value[found.place]))
+    return Leaving(packing, omega, right / inertia, left * inertia)

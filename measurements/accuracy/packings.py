@@ -1,0 +1,26 @@
+"""Packings to try settings on: compressed as in a study, in larger steps of φ."""
+
+from __future__ import annotations
+
+from grainmodes.kernels.laws import Hertz
+from grainmodes.packing.state import Packing
+from grainmodes.parameters.compression import Compression
+from grainmodes.protocols.compression.trajectory import balanced, placed
+
+HERTZ = Hertz(1.0)
+
+COARSE = Compression(phi_step=1e-3)
+"""A tenth of the steps of a study: seconds instead of a minute."""
+
+
+def compressed(n: int, seed: int, phi: float, protocol: Compression = COARSE) -> Packing:
+    """A Hertzian packing at φ in its final balance.
+
+    Raises:
+        CompressionError: it did not get there.
+        ArithmeticError: its last balance was not found.
+    """
+    relaxed = balanced(placed(n, seed, HERTZ, protocol), phi, HERTZ, protocol)
+    if not relaxed.converged:
+        raise ArithmeticError(f"N = {n}, seed {seed}: max|F| = {relaxed.max_force:.1e}")
+    return relaxed.packing

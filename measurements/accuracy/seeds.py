@@ -1,0 +1,117 @@
+"""Number of seeds: how sure the ensemble averages of G and of D(ω) are.
+
+S seeds give a mean x̄ with a standard error s/S^(1/2) (`statistics`), as long as the samples are
+independent and the distribution is not too broad. An ensemble of T seeds is cut into groups of S:
+
+    found     root mean square over groups of x̄_group − x̄_others
+    stated    root mean square over groups of the standard error that a group states for itself
+
+both relative to the mean of all. Where the two agree, error bars mean what they say. D(ω) is that
+of
+the bins in which an average spectrum has a mode or more; the median of these bins is shown.
+
+Reference: x̄_others, the T − S seeds of all other groups, S ≤ T/4, whose own error adds at most a
+sixth.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from grainmodes.kernels.laws import interaction
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.spectra import SpectrumChoices
+from grainmodes.response.moduli import rigidity
+from grainmodes.spectrum import band_averages, problem
+from grainmodes.stages.rows import SAMPLE_ERRORS
+from grainmodes.statistics.averages import average
+from grainmodes.statistics.binning import fixed_edges
+from measurements.accuracy.diagram import Diagram, Row, Size, apart, of
+from measurements.accuracy.packings import compressed
+
+PHI, KAPPA = 0.9, 1e-4
+RULE = interaction(ContactLaw(kt=KAPPA))
+
+SHIPPED = 8
+"""Seeds of the scene in config/default.yaml."""
+
+GROUPS = 4
+"""Least number of groups."""
+
+OCCUPIED = 1.0
+"""Modes of an average spectrum in a bin that counts."""
+
+
+def measure(size: Size) -> Iterator[Row]:
+    """Errors of ensembles of 2, 4, 8 … seeds, to a quarter of all."""
+    for n in size.n:
+        done = apart(ensemble, n, size.seeds)
+        found = done.value[np.isfinite(done.value).all(axis=1)]
+        failed = len(done.value) - len(found)
+        cost = done.seconds / len(done.value)
+        occupied = np.append(True, found[:, 1:].mean(axis=0) >= OCCUPIED)
+        for seeds in sizes(len(found)):
+            errors = errors_of_means(found[:, occupied], seeds)
+            for name, (g, *density) in zip(("found", "stated"), errors, strict=True):
+                for what, error in (("G", g), (r"$D(\omega)$", np.median(density, axis=0))):
+                    curve = f"{name}, {what}{of(n, size)}"
+                    point = seeds * cost, done.megabytes, *map(float, error)
+                    yield Row(curve, seeds, *point, len(found), failed, seeds == SHIPPED)
+
+
+def sizes(total: int) -> list[int]:
+    """2, 4, 8 … up to `total` / `GROUPS`."""
+    return [2**k for k in range(1, 64) if GROUPS * 2**k <= total]
+
+
+def ensemble(n: int, seeds: int) -> np.ndarray:
+    """G, and the modes in A's bins, of every seed, (T, 1 + B); NaN where a packing failed."""
+    edges = fixed_edges(KAPPA, SpectrumChoices().fineness)
+    found = np.full((seeds, len(edges)), np.nan)
+    for seed in range(seeds):
+        try:
+            packing = compressed(n, seed, PHI)
+            g = rigidity(packing, RULE).unloaded.g
+            modes = band_averages(problem(packing, RULE), edges, averages=False).count
+        except SAMPLE_ERRORS:
+            continue
+        found[seed] = np.append(g, modes)
+    return found
+
+
+def errors_of_means(samples: np.ndarray, seeds: int) -> tuple[np.ndarray, np.ndarray]:
+    """(found, stated) error of the means of S seeds, relative to the mean of all.
+
+    Args:
+        samples: (T, Q), T at least 2 S.
+
+    Returns:
+        arrays (Q, 2): each error with its own standard error over the groups.
+    """
+    groups = len(samples) // seeds
+    parts = samples[: groups * seeds].reshape(groups, seeds, -1)
+    mean, error, _ = average(np.moveaxis(parts, 1, 2), np.ones((groups, 1, seeds), bool))
+    others = (samples.sum(axis=0) - seeds * mean) / (len(samples) - seeds)
+    of_all = samples.mean(axis=0)
+    return tuple(_root_mean_square(x / of_all) for x in (mean - others, error))
+
+
+def _root_mean_square(values: np.ndarray) -> np.ndarray:
+    """Over the groups (groups, Q), with its standard error; (Q, 2)."""
+    root = np.sqrt((values**2).mean(axis=0))
+    scatter = (values**2).std(axis=0, ddof=1) / np.sqrt(len(values))
+    return np.stack([root, 0.5 * scatter / root], axis=1)
+
+
+DIAGRAM = Diagram(
+    title="Number of seeds, φ = 0.90, $k_T/k_N = 10^{-4}$",
+    setting="seeds",
+    unit="ensemble",
+    error="relative error of a mean",
+    reference="the mean of all other seeds of 512",
+    small=Size((64,), 512),
+    large=Size((256, 1024), 512),
+    measure=measure,
+)

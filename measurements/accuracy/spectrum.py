@@ -1,0 +1,237 @@
+"""How a spectrum is computed: the density of states, and ψ^R in bins, of symmetric J.
+
+| method            | what it gives                        | setting                        |
+| ----------------- | ------------------------------------ | ------------------------------ |
+| dense symmetric   | every mode (LAPACK evd)              | modes                          |
+| dense general     | every mode (LAPACK geev, as A, B)    | modes                          |
+| windows           | every mode, block Lanczos            | modes                          |
+| counts            | modes below given edges, exactly     | fineness of A's linear bins    |
+| counted twice     | ψ^R in bins from counts in two σ     | cells a bin                    |
+| kernel polynomial | both, from random vectors: not taken | moments                        |
+
+Each quantity is asked where it is hardest. D(ω) at k_T/k_N = 1e-8, where the rotational band lies
+far below the rounding of ‖J‖: its error is that of the integrated density of states, the mean over
+modes of |ln ω/ω_ref| at the same rank, inside the range of A's bins. Counts are exact at their
+edges, and their modes are put evenly between them, so that their error is the width of a bin:
+resolution, not a mistake. ψ^R at k_T/k_N = 1e-2, where the bands overlap and modes are neither
+translational nor rotational: its error is the mean over the modes in `BINS` of |ψ^R_bin − ψ^R_ref|.
+
+Reference: eigenpairs sharpened in extended precision (`sharpened`) as long as J is small enough for
+a dense matrix; beyond, `FINER` times as many edges and cells as the finest point has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from grainmodes.kernels.laws import interaction
+from grainmodes.packing.state import Packing
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.spectra import DENSE_COUNTS_UP_TO, DENSE_MODES_UP_TO, SpectrumChoices
+from grainmodes.spectrum import Problem, dense, full_spectrum, problem
+from grainmodes.spectrum.inertia_counts import counts, rotational_sums
+from grainmodes.spectrum.measures import rotational_fraction
+from grainmodes.statistics.binning import fixed_edges
+from measurements.accuracy import kernel_polynomial
+from measurements.accuracy.diagram import Diagram, Row, Sample, Size, apart, row, timed
+from measurements.accuracy.diagram import of as of_size
+from measurements.accuracy.packings import compressed
+from measurements.accuracy.sharpened import sharpened
+
+PHI = 0.9
+FAINT, MIXED = 1e-8, 1e-2
+"""k_T/k_N at which D(ω) and ψ^R are asked for."""
+
+BINS = np.linspace(0.02, 1.3, 21)
+"""Edges of the bins of ψ^R, over both bands."""
+
+SHIPPED = SpectrumChoices()
+FINENESS = (0.02, 0.06, SHIPPED.fineness, 0.6, 2.0)
+CELLS = (1, SHIPPED.substeps, 4, 8)
+MOMENTS = (125, 500, 2000)
+FINER = 4
+
+LEAST = 0.02
+"""CPU seconds for which a call is repeated, to be seen by the clock."""
+
+WINDOWS_UP_TO = 12_288
+"""Degrees of freedom up to which all modes in windows take minutes."""
+
+
+class Found(NamedTuple):
+    """ω of every mode by rank (M,), and ψ^R of `BINS`; None where a method does not give it."""
+
+    frequency: np.ndarray | None
+    rotational: np.ndarray | None
+
+
+def every_mode(values: np.ndarray, rotational: np.ndarray) -> Found:
+    """From λ (M,), ascending, and ψ^R (M,)."""
+    below = np.searchsorted(values, BINS**2)
+    sums = np.diff(np.append(0.0, np.cumsum(np.nan_to_num(rotational)))[below])
+    return Found(np.sqrt(np.maximum(values, 0.0)), _mean(sums, np.diff(below)))
+
+
+def _mean(sums: np.ndarray, modes: np.ndarray) -> np.ndarray:
+    return np.divide(sums, modes, out=np.zeros(len(sums)), where=modes > 0)
+
+
+def _weight(of: Problem, vectors: np.ndarray) -> np.ndarray:
+    return np.abs(vectors.reshape(of.size // of.k, of.k, -1)) ** 2
+
+
+def dense_symmetric(of: Problem, modes: float) -> Found:
+    """Divide and conquer."""
+    values, vectors = dense.eigenpairs(of)
+    return every_mode(values, rotational_fraction(_weight(of, vectors)))
+
+
+def dense_general(of: Problem, modes: float) -> Found:
+    """The solver for matrices of any kind, as the papers take it."""
+    values, vectors = dense.eigenpairs(replace(of, symmetric=False))
+    return every_mode(values.real, rotational_fraction(_weight(of, vectors)))
+
+
+def windows(of: Problem, modes: float) -> Found:
+    """Block Lanczos between exact counts."""
+    found = full_spectrum(of, choices=SpectrumChoices("windows"))
+    return every_mode(found.eigenvalue, found.psi_rotational)
+
+
+def counted(of: Problem, fineness: float) -> Found:
+    """A's bins, their modes evenly between the edges."""
+    edges = fixed_edges(FAINT, fineness)
+    return Found(np.interp(_ranks(of), counts(of.shift(), edges), edges), None)
+
+
+def _ranks(of: Problem) -> np.ndarray:
+    return np.arange(of.size) + 0.5
+
+
+def counted_twice(of: Problem, cells: float) -> Found:
+    """ψ^R from counts in two shifts."""
+    shift = of.shift()
+    below = counts(shift, BINS)
+    sums = rotational_sums(shift, below, BINS, of.k, int(cells))
+    return Found(None, _mean(sums.total, np.diff(below)))
+
+
+def stochastic(of: Problem, moments: float) -> Found:
+    """The kernel polynomial method."""
+    mu, at = kernel_polynomial.moments(of, int(moments)), fixed_edges(FAINT, FINER * FINENESS[-1])
+    below = kernel_polynomial.below(mu.all, mu, at**2)
+    modes, sums = (
+        np.diff(kernel_polynomial.below(part, mu, BINS**2)) for part in (mu.all, mu.rotational)
+    )
+    return Found(np.interp(_ranks(of), below, at), _mean(sums, modes))
+
+
+class Method(NamedTuple):
+    """A way to find a spectrum; without `settings` the only one is the number of modes M.
+
+    `up_to` is the largest M that it takes minutes for, `ships` for which M it is the project's.
+    """
+
+    find: Callable[[Problem, float], Found]
+    gives: tuple[str, ...]
+    settings: tuple[float, ...]
+    shipped: float | None
+    up_to: float
+    ships: range
+
+    def at(self, modes: int) -> tuple[float, ...]:
+        """The settings to try at M."""
+        return (self.settings or (float(modes),)) if modes <= self.up_to else ()
+
+    def is_default(self, setting: float, modes: int) -> bool:
+        """Whether the project ships with this setting at this M."""
+        return modes in self.ships and self.shipped in (None, setting)
+
+
+SMALL, NEVER = range(DENSE_MODES_UP_TO + 1), range(0)
+BEYOND_COUNTS = range(DENSE_COUNTS_UP_TO + 1, 10**9)
+BEYOND_MODES = range(DENSE_MODES_UP_TO + 1, 10**9)
+
+DENSITY, SHARE = r"$D(\omega)$", r"$\psi^R$"
+BOTH = (DENSITY, SHARE)
+
+METHODS = {
+    "dense symmetric": Method(dense_symmetric, BOTH, (), None, DENSE_MODES_UP_TO, SMALL),
+    "dense general": Method(dense_general, BOTH, (), None, DENSE_MODES_UP_TO, NEVER),
+    "windows": Method(windows, BOTH, (), None, WINDOWS_UP_TO, BEYOND_MODES),
+    "counts": Method(counted, (DENSITY,), FINENESS, SHIPPED.fineness, np.inf, BEYOND_COUNTS),
+    "counted twice": Method(counted_twice, (SHARE,), CELLS, SHIPPED.substeps, np.inf, BEYOND_MODES),
+    "kernel polynomial": Method(stochastic, BOTH, MOMENTS, None, np.inf, NEVER),
+}
+
+
+def reference(of: Problem) -> Found:
+    """What all methods are held against."""
+    if of.size > DENSE_MODES_UP_TO:
+        finest = counted(of, FINER * FINENESS[-1]), counted_twice(of, FINER * CELLS[-1])
+        return Found(finest[0].frequency, finest[1].rotational)
+    values, vectors = sharpened(of)
+    return every_mode(values, rotational_fraction(_weight(of, vectors)))
+
+
+def measure(size: Size) -> Iterator[Row]:
+    """The error of either quantity, of every method and setting."""
+    for n in size.n:
+        packings = [compressed(n, seed, PHI) for seed in range(size.seeds)]
+        for what in QUANTITIES:
+            for line in _measured(packings, what):
+                yield line._replace(curve=f"{line.curve}{of_size(n, size)}")
+
+
+def _measured(packings: list[Packing], what: str) -> Iterator[Row]:
+    kappa, error = QUANTITIES[what]
+    law = interaction(ContactLaw(kt=kappa))
+    problems = [problem(packing, law) for packing in packings]
+    exact = [apart(reference, of).value for of in problems]
+    modes = min(of.size for of in problems)
+    for name, method in METHODS.items():
+        for setting in method.at(modes) if what in method.gives else ():
+            done = apart(sampled, name, setting, problems)
+            pairs = zip(done.value, exact, strict=True)
+            samples = [Sample(seconds, error(found, known)) for (found, seconds), known in pairs]
+            default = method.is_default(setting, modes)
+            yield row(f"{name}, {what}", setting, samples, done.megabytes, default)
+
+
+def sampled(name: str, setting: float, problems: list[Problem]) -> list[tuple[Found, float]]:
+    """The spectrum of every problem, and its CPU seconds."""
+    problems[0].shift().to(1.0)
+    return [timed(METHODS[name].find, of, setting, at_least=LEAST) for of in problems]
+
+
+def error_of_density(found: Found, exact: Found) -> float:
+    """Mean |ln ω/ω_ref| of the modes in A's bins."""
+    low, *_, high = fixed_edges(FAINT, SHIPPED.fineness)
+    inside = (exact.frequency > low) & (exact.frequency < high)
+    ratio = np.maximum(found.frequency[inside], low) / exact.frequency[inside]
+    return float(np.abs(np.log(ratio)).mean())
+
+
+def error_of_share(found: Found, exact: Found) -> float:
+    """Mean |ψ^R_bin − ψ^R_ref| of the modes in `BINS`."""
+    modes = np.histogram(exact.frequency, BINS)[0]
+    return float(np.abs(found.rotational - exact.rotational) @ modes / modes.sum())
+
+
+QUANTITIES = {DENSITY: (FAINT, error_of_density), SHARE: (MIXED, error_of_share)}
+"""Where each is asked for, and its error."""
+
+DIAGRAM = Diagram(
+    title=r"Spectra, φ = 0.90: $D(\omega)$ at $k_T/k_N = 10^{-8}$, $\psi^R$ at $10^{-2}$",
+    setting="modes, fineness, cells a bin, or moments",
+    unit="spectrum",
+    error=r"$|\ln\,\omega/\omega_{\rm ref}|$ of a mode; $|\psi^R - \psi^R_{\rm ref}|$ of a bin",
+    reference="eigenpairs sharpened in extended precision; at large N 4 times the edges and cells",
+    small=Size((256, 1024), 1),
+    large=Size((4096, 16384, 65536), 1),
+    measure=measure,
+)

@@ -1,0 +1,115 @@
+"""Δγ of a simulated rigidity: truncation, a plateau, round-off. A, Sec. II.
+
+    g_forward = [σ_xy(Δγ) − σ_xy(0)] / Δγ = g + g' Δγ/2 + …               A (14)–(16)
+    g_both    = [σ_xy(Δγ) − σ_xy(−Δγ)] / 2Δγ = g + O(Δγ²)
+
+The larger Δγ, the more is cut off, and the sooner a contact opens or closes; the smaller, the more
+weighs what the balance left over, about F_Th / Δγ, and the rounding of σ, 1e-16 σ / Δγ. A claims a
+plateau, no dependence on Δγ for 1e-6 … 1e-4. A relaxes by damped dynamics, here Newton's method
+does, which overshoots its F_Th: the last step squares the error. The shipped rule starts at Δγ and
+divides it by ten until two sizes agree to 1e-6 (`protocols.step_strain`).
+
+Reference: g by linear response, one solve with J in the same state (`rigidity`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+from grainmodes.kernels.laws import interaction
+from grainmodes.packing.forces import stress
+from grainmodes.packing.state import Packing, backbone, find_contacts
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.strain import StepStrain
+from grainmodes.protocols.shear.step_strain import forward_rigidity, relaxed_steps, step_strain
+from grainmodes.response.moduli import rigidity
+from grainmodes.stages.rows import SAMPLE_ERRORS
+from measurements.accuracy.diagram import FAILED, Diagram, Row, Sample, Size, apart, of, row, timed
+from measurements.accuracy.packings import compressed
+
+PHI, RULE = 0.9, interaction(ContactLaw(kt=1.0))
+"""k_T = k_N: with a smaller one the damped dynamics needs more steps, rotations being slower."""
+
+STRAINS = tuple(10.0**-k for k in range(2, 10))
+
+
+class Way(NamedTuple):
+    """How g is found, and how a step is relaxed."""
+
+    find: Callable[[Packing, StepStrain], float]
+    protocol: StepStrain
+
+
+def forward(packing: Packing, protocol: StepStrain) -> float:
+    """g of one step forward, as A takes it."""
+    return forward_rigidity(packing, RULE, protocol)
+
+
+def both_sides(packing: Packing, protocol: StepStrain) -> float:
+    """g of one step to either side."""
+    steps = relaxed_steps(backbone(packing, 2), RULE, protocol)
+    if not all(step.converged for step in steps):
+        raise ArithmeticError(f"max|F| = {max(step.max_force for step in steps):.1e}")
+    after, before = (stress(s.packing, find_contacts(s.packing), RULE)[0, 1] for s in steps)
+    return float(after - before) / (2.0 * protocol.strain)
+
+
+def shrinking(packing: Packing, protocol: StepStrain) -> float:
+    """g by the shipped rule, whose first step is Δγ."""
+    found = step_strain(packing, RULE, protocol)
+    if not found.converged:
+        raise ArithmeticError(f"max|F| = {found.max_force:.1e}")
+    return found.g
+
+
+DAMPED = StepStrain(relaxation="damped", max_steps=2_000_000)
+WAYS = {
+    "damped to 1e-14, forward": Way(forward, DAMPED),
+    "damped to 1e-10, forward": Way(forward, replace(DAMPED, force_tolerance=1e-10)),
+    "Newton, forward": Way(forward, StepStrain()),
+    "Newton, both sides": Way(both_sides, StepStrain()),
+    "Newton, both sides, until two sizes agree": Way(shrinking, StepStrain()),
+}
+SHIPPED = "Newton, both sides, until two sizes agree", StepStrain().strain
+
+
+def measure(size: Size) -> Iterator[Row]:
+    """A row for every way and Δγ."""
+    for n in size.n:
+        packings = [compressed(n, seed, PHI) for seed in range(size.seeds)]
+        for name in WAYS:
+            for strain in STRAINS:
+                done = apart(sampled, name, strain, packings)
+                default = (name, strain) == SHIPPED
+                yield row(f"{name}{of(n, size)}", strain, *done[::2], default)
+
+
+def sampled(name: str, strain: float, packings: list[Packing]) -> list[Sample]:
+    """The error of g of every packing."""
+    way = WAYS[name]
+    protocol = replace(way.protocol, strain=strain)
+    way.find(packings[0], protocol)
+    return [_sample(way.find, packing, protocol) for packing in packings]
+
+
+def _sample(find: Callable, packing: Packing, protocol: StepStrain) -> Sample:
+    exact = rigidity(packing, RULE).unloaded.g
+    try:
+        g, seconds = timed(find, packing, protocol)
+    except SAMPLE_ERRORS:
+        return FAILED
+    return Sample(seconds, abs(g / exact - 1.0))
+
+
+DIAGRAM = Diagram(
+    title="Size of a step strain, φ = 0.90, k_T/k_N = 1",
+    setting="Δγ",
+    unit="modulus",
+    error=r"$|g_{\rm sim} - g| \,/\, |g|$",
+    reference="g by one solve with J in the same state",
+    small=Size((64,), 8),
+    large=Size((256, 1024), 16),
+    measure=measure,
+)

@@ -1,0 +1,90 @@
+"""The file of a measured diagram: its words, the machine and the code, then a row per setting."""
+
+from __future__ import annotations
+
+import os
+import platform
+from importlib.util import find_spec
+from pathlib import Path
+from typing import NamedTuple
+
+import numba
+import numpy as np
+import pandas as pd
+import scipy
+
+from grainmodes.runtime.atomic import replaced
+from grainmodes.runtime.provenance import code_version
+from measurements.accuracy.diagram import Diagram, Row, Size
+
+WORDS = ("title", "grains", "setting", "unit", "error", "reference", "machine", "code")
+"""Keys of the comment on top."""
+
+
+class Table(NamedTuple):
+    """A file in memory: key → words, and a row per setting with the columns of `Row`."""
+
+    words: dict[str, str]
+    rows: pd.DataFrame
+
+
+def machine() -> str:
+    """Processor, cores and the libraries that matter."""
+    versions = {"numpy": np, "scipy": scipy, "numba": numba}
+    libraries = [f"{name} {module.__version__}" for name, module in versions.items()]
+    factors = "PARDISO" if find_spec("pypardiso") else "SuperLU"
+    python = f"Python {platform.python_version()}"
+    return ", ".join([f"{_processor()}, {os.cpu_count()} cores", python, *libraries, factors])
+
+
+def _processor() -> str:
+    known = Path("/proc/cpuinfo")
+    lines = known.read_text(encoding="utf-8").splitlines() if known.is_file() else []
+    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return models[0] if models else platform.processor() or platform.machine()
+
+
+def table_of(diagram: Diagram, size: Size, rows: list[Row]) -> Table:
+    """What was measured here and now."""
+    words = {name: getattr(diagram, name) for name in WORDS if hasattr(diagram, name)}
+    words |= {"grains": ", ".join(map(str, size.n))}
+    words |= {"machine": machine(), "code": code_version()}
+    return Table(words, pd.DataFrame(rows, columns=list(Row._fields)))
+
+
+def write(path: Path, table: Table) -> None:
+    """Write a table, whole or not at all.
+
+    Raises:
+        OSError: it cannot be written.
+    """
+    head = "".join(f"# {name}: {table.words[name]}\n" for name in WORDS)
+    with replaced(path) as partial:
+        partial.write_text(head + table.rows.to_csv(index=False), encoding="utf-8")
+
+
+def read(path: Path) -> Table:
+    """The table in a file of `write`.
+
+    Raises:
+        OSError: it cannot be read.
+        ValueError: it is no such file.
+    """
+    lines = path.read_text(encoding="utf-8").splitlines()
+    pairs = (line[1:].partition(":") for line in lines if line.startswith("#"))
+    words = {name.strip(): text.strip() for name, _, text in pairs}
+    missing = [name for name in WORDS if name not in words]
+    if missing:
+        raise ValueError(f"{path}: no {', '.join(missing)} on top; needed is a file of measure.py")
+    rows = pd.read_csv(path, comment="#")
+    if list(rows.columns) != list(Row._fields):
+        raise ValueError(f"{path}: its columns are not {', '.join(Row._fields)}")
+    return Table(words, rows)
+
+
+def curves(table: Table) -> dict[str, list[Row]]:
+    """The rows of every curve, in the order of the file."""
+    rows = [Row(*values) for values in table.rows.itertuples(index=False)]
+    return {
+        name: [row for row in rows if row.curve == name] for name in table.rows["curve"].unique()
+    }

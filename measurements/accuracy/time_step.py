@@ -1,0 +1,168 @@
+"""Δt of velocity Verlet: its order with and without forces that depend on the velocity. A, App. B.
+
+    Q̇ = q̇ + Δt f̃(q, Q̇)/2,   q → q + Δt Q̇,   q̇ → Q̇ + Δt f̃(q, Q̇)/2           A (B7)–(B9)
+
+A finds a step right to order Δt² in q and Δt in q̇ (A18): it errs by Δt³ and Δt². Over a given time
+the errors of all steps add up, to order Δt in both. Without damping f does not depend on q̇, q̇ gains
+an order in a step, and a motion has order 2. Beyond the limit Δt = 2/ω_max a mode grows in every
+step; a setting whose error exceeds the motion has failed.
+
+    q, q̇        |Δq| and |Δq̇| in units of |q|, |q̇| at the start, after `DURATION` or after one step
+    growth      |ω_i(Δt)/ω_i − 1| of an unstable state of C (`growth`)
+
+Reference of a motion: the same with a Δt 32 times shorter than the shortest, of a step: 64 steps
+within it; of the growth: ω_i of M⁻¹J by LAPACK.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import replace
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+
+from grainmodes.kernels.damping import Dashpot, Undamped
+from grainmodes.kernels.dynamics import Stop
+from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.neighbours import RESOLUTION
+from grainmodes.packing.state import Packing
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.release import Release
+from grainmodes.parameters.strain import StepStrain
+from grainmodes.relaxation.dynamics import Motion, move
+from grainmodes.stages.rows import SAMPLE_ERRORS
+from measurements.accuracy.diagram import FAILED, Diagram, Row, Sample, Size, apart, of, row, timed
+from measurements.accuracy.growth import Leaving, leaving
+from measurements.accuracy.packings import compressed
+
+PHI, RULE = 0.9, interaction(ContactLaw(kt=1.0))
+
+TIME_STEPS = (2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
+DURATION = 10.0
+
+FINER, WITHIN_STEP = 32, 64
+"""How much shorter the Δt of a reference is, of a motion and of a step."""
+
+AMPLITUDE = 1e-6
+"""Size of displacements and velocities at the start, d and d/t_0: no contact opens."""
+
+DAMPINGS = {"no damping": Undamped(), "dashpots": Dashpot(StepStrain().damping)}
+DEFAULTS = {"no damping": Release().time_step, "dashpots": StepStrain().time_step}
+GROWING = 32
+"""Grains of an unstable state, found by LAPACK in each of 200 states."""
+
+QUANTITIES = ("$q$", r"$\dot q$")
+SPANS = (f"{DURATION:g} $t_0$", "one step")
+
+
+class Start(NamedTuple):
+    """A packing on the move: velocities (N, 3) in d/t_0."""
+
+    packing: Packing
+    velocity: np.ndarray
+
+    def after(self, damping, time_step: float, steps: int) -> Motion:
+        """The motion after so many steps."""
+        return move(self.packing, self.velocity, RULE, damping, time_step, Stop(0.0, steps))
+
+
+def kicked(n: int, seed: int) -> Start:
+    """A packing slightly out of balance, its grains with slight velocities."""
+    packing = compressed(n, seed, PHI)
+    kick = AMPLITUDE * np.random.default_rng(seed).standard_normal((2, n, 3))
+    return Start(replace(packing.displaced(kick[0, :, :2]), rotation=kick[0, :, 2]), kick[1])
+
+
+def errors(motion: Motion, exact: Motion) -> tuple[float, float]:
+    """|Δq| and |Δq̇| between two ends of a motion, root mean squares in units of `AMPLITUDE`."""
+    length = motion.packing.box_length * RESOLUTION
+    step = (motion.packing.fraction - exact.packing.fraction) * length
+    turn = motion.packing.rotation - exact.packing.rotation
+    off = np.concatenate([step.ravel(), turn]), motion.velocity - exact.velocity
+    position, velocity = (float(np.sqrt(np.mean(part**2))) / AMPLITUDE for part in off)
+    return position, velocity
+
+
+def measure(size: Size) -> Iterator[Row]:
+    """Rows for every damping, span, quantity and Δt, then for the growth of unstable states."""
+    for n in size.n:
+        starts = [kicked(n, seed) for seed in range(size.seeds)]
+        for name, damping in DAMPINGS.items():
+            steps = round(DURATION * FINER / min(TIME_STEPS))
+            exact = [start.after(damping, DURATION / steps, steps) for start in starts]
+            for time_step in TIME_STEPS:
+                done = apart(sampled, name, time_step, starts, exact)
+                for (span, what), samples in done.value.items():
+                    default = span == SPANS[0] and time_step == DEFAULTS[name]
+                    curve = f"{name}, {what} after {span}{of(n, size)}"
+                    yield row(curve, time_step, samples, done.megabytes, default)
+    yield from growth(size.seeds)
+
+
+def growth(seeds: int) -> Iterator[Row]:
+    """Rows of the growth rate for every Δt, over the seeds that have an unstable state."""
+    states = [state for state in (leaving(GROWING, seed) for seed in range(seeds)) if state]
+    for time_step in TIME_STEPS:
+        done = apart(grown, time_step, states)
+        default = time_step == DEFAULTS["no damping"]
+        yield row("no damping, growth rate", time_step, done.value, done.megabytes, default)
+
+
+def sampled(name: str, time_step: float, starts: list[Start], exact: list[Motion]) -> dict:
+    """(span, quantity) → a sample for every start."""
+    starts[0].after(DAMPINGS[name], time_step, 1)
+    samples = [
+        _samples(start, DAMPINGS[name], time_step, end)
+        for start, end in zip(starts, exact, strict=True)
+    ]
+    return {key: [sample[key] for sample in samples] for key in product(SPANS, QUANTITIES)}
+
+
+def _samples(start: Start, damping, time_step: float, exact: Motion) -> dict:
+    """(span, quantity) → the sample of one start."""
+    steps = round(DURATION / time_step)
+    seconds, whole = np.nan, (np.inf, np.inf)
+    with suppress(*SAMPLE_ERRORS):
+        motion, seconds = timed(start.after, damping, time_step, steps)
+        whole = errors(motion, exact)
+    seconds /= DURATION * start.packing.n
+    once = start.after(damping, time_step, 1)
+    often = start.after(damping, time_step / WITHIN_STEP, WITHIN_STEP)
+    found = [*whole, *errors(once, often)]
+    samples = [_followed(Sample(seconds, error)) for error in found]
+    return dict(zip(product(SPANS, QUANTITIES), samples, strict=True))
+
+
+def grown(time_step: float, states: list[Leaving]) -> list[Sample]:
+    """The error of ω_i of every state."""
+    states[0].rate(max(TIME_STEPS))
+    return [_grown(time_step, state) for state in states]
+
+
+def _grown(time_step: float, state: Leaving) -> Sample:
+    try:
+        rate, seconds = timed(state.rate, time_step)
+    except SAMPLE_ERRORS:
+        return FAILED
+    seconds /= state.duration * state.packing.n
+    return _followed(Sample(seconds, abs(rate / state.omega.imag - 1.0)))
+
+
+def _followed(sample: Sample) -> Sample:
+    """The sample, if its error does not exceed the motion."""
+    return sample if sample.error < 1.0 else FAILED
+
+
+DIAGRAM = Diagram(
+    title="Time step of velocity Verlet, φ = 0.90, k_T/k_N = 1; growth: law of C, N = 32",
+    setting=r"$\Delta t \,/\, t_0$",
+    unit="$t_0$ and grain",
+    error="relative error",
+    reference="motions and steps: a far shorter Δt; growth rate: $M^{-1}J$",
+    small=Size((64,), 8),
+    large=Size((256, 1024), 32),
+    measure=measure,
+)

@@ -1,0 +1,1 @@
+"""Speeds, growth with N, and the cost of each effect."""

@@ -1,0 +1,192 @@
+"""What each effect costs at each stage: the rows of `effects.py`.
+
+A row prepares a state of N grains at φ = 0.90 and returns the work that is timed. Three states of
+the springs: without friction (2N unknowns), friction never loaded, s = 0 (3N, J symmetric), and
+loaded by a strain of 1e-5, s ≠ 0 (3N, J not symmetric).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache, partial
+from typing import NamedTuple
+
+import numpy as np
+
+from grainmodes.kernels.damping import Dashpot, Drag, Undamped
+from grainmodes.kernels.dynamics import Stop
+from grainmodes.kernels.fire import FireSettings, fire
+from grainmodes.kernels.laws import interaction
+from grainmodes.packing.forces import net_force
+from grainmodes.packing.jacobian import jacobian
+from grainmodes.packing.state import Packing, backbone, find_contacts
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.shear.run import Walk
+from grainmodes.relaxation.dynamics import move
+from grainmodes.relaxation.frictionless import SKIN, STABILITY, UNLIMITED, relax_loosely
+from grainmodes.relaxation.newton import newton
+from grainmodes.response.moduli import rigidity
+from grainmodes.spectrum import band_averages, full_spectrum, problem
+from grainmodes.statistics.binning import fixed_edges
+from measurements.benchmarks.cases import HERTZ, balanced_at, quenched
+
+KT = 1e-2
+NONE, ELASTIC = ContactLaw(), ContactLaw(kt=KT)
+SMOOTHED = ContactLaw("hertz", "smoothed_coulomb", KT, 0.5)
+SHARP = ContactLaw("hertz", "sharp_coulomb", KT, 0.5)
+
+SMALL, LARGE = (256, 1024), (256, 1024, 4096)
+
+Work = Callable[[], object]
+
+
+class Row(NamedTuple):
+    """An effect at a stage: `prepare(n)` gives the work, which takes `steps` steps."""
+
+    stage: str
+    effect: str
+    prepare: Callable[[int], Work]
+    sizes: tuple[int, ...]
+    steps: int = 1
+
+
+@cache
+def unloaded(n: int) -> Packing:
+    """A balance whose springs were never loaded, without its rattlers."""
+    return backbone(balanced_at(n, 0.9), 2)
+
+
+@cache
+def loaded(n: int) -> Packing:
+    """A balance after a small strain: every spring is stretched."""
+    relaxed = newton(unloaded(n).sheared(1e-5), interaction(ELASTIC), 1e-13, 40)
+    if not relaxed.converged:
+        raise ArithmeticError(f"no balance near a strain of 1e-5 among {n} grains")
+    return relaxed.packing
+
+
+STATES = (
+    ("frictionless, 2N", unloaded, NONE),
+    ("friction, s = 0", unloaded, ELASTIC),
+    ("friction, s ≠ 0", loaded, ELASTIC),
+)
+
+
+def fire_steps(strain: float, n: int) -> Work:
+    """400 steps of FIRE near balance."""
+    start = quenched(n, 0.9, 1e-5).sheared(strain)
+    packing = relax_loosely(start, HERTZ, 1e-5, 0.0, 20_000).packing
+    settings = FireSettings(1e-30, 0.0, UNLIMITED, STABILITY, SKIN, 400)
+
+    def work():
+        x, y = packing.fraction.copy()
+        box = packing.box_length, packing.strain
+        fire(x, y, packing.diameter, np.ones(n), *box, HERTZ, settings)
+
+    return work
+
+
+def dynamics_steps(law: ContactLaw, damping, n: int) -> Work:
+    """200 steps of dynamics with springs, after a strain of 1e-4."""
+    packing, rule = unloaded(n).sheared(1e-4), interaction(law)
+    rest = np.zeros((packing.n, 3))
+    return lambda: move(packing, rest, rule, damping, 1e-2, Stop(0.0, 200))
+
+
+def forces(state, law: ContactLaw, n: int) -> Work:
+    """Net forces from the contacts."""
+    packing, rule = state(n), interaction(law)
+    contacts = find_contacts(packing)
+    return lambda: net_force(packing, contacts, rule)
+
+
+def assembly(state, law: ContactLaw, n: int) -> Work:
+    """J from the contacts."""
+    packing, rule = state(n), interaction(law)
+    contacts = find_contacts(packing)
+    return lambda: jacobian(packing, contacts, rule)
+
+
+def moduli(state, law: ContactLaw, n: int) -> Work:
+    """g, g_A, g_NA from the packing."""
+    packing, rule = state(n), interaction(law)
+    return lambda: rigidity(packing, rule)
+
+
+def sheared(law: ContactLaw, n: int) -> Work:
+    """Ten steps of quasistatic shear, no bracket narrower than a step."""
+    packing, rule = unloaded(n), interaction(law)
+
+    def work():
+        walk = Walk.start(packing, rule, Shear(1e-3, 1e-4, 1e-4))
+        while not walk.done and walk.advance():
+            pass
+
+    return work
+
+
+def bands(averages: bool, law: ContactLaw, n: int) -> Work:
+    """The default bins: counts alone, or with ψ^R and p."""
+    of, edges = problem(unloaded(n), interaction(law)), fixed_edges(law.kt, 0.2)
+    return lambda: band_averages(of, edges, averages)
+
+
+def eigen(modes: bool, state, law: ContactLaw, n: int) -> Work:
+    """All eigenvalues, or all modes with ψ^R and p."""
+    of = problem(state(n), interaction(law))
+    return lambda: full_spectrum(of, modes)
+
+
+def rows() -> list[Row]:
+    """All rows, stage by stage."""
+    return [*_kernels(), *_responses(), *_spectra()]
+
+
+def _kernels() -> list[Row]:
+    fires = [
+        Row(
+            "FIRE, a step", f"frictionless, γ = {strain:g}", partial(fire_steps, strain), LARGE, 400
+        )
+        for strain in (0.0, 0.1)
+    ]
+    kinds = (
+        ("elastic, no damping", ELASTIC, Undamped()),
+        ("elastic, dashpots", ELASTIC, Dashpot(1.0)),
+        ("elastic, drag", ELASTIC, Drag(1.0)),
+        ("smoothed Coulomb, no damping", SMOOTHED, Undamped()),
+        ("sharp Coulomb, no damping", SHARP, Undamped()),
+    )
+    return fires + [
+        Row("dynamics, a step", name, partial(dynamics_steps, law, damping), LARGE, 200)
+        for name, law, damping in kinds
+    ]
+
+
+def _responses() -> list[Row]:
+    found = [
+        Row(stage, name, partial(function, state, law), sizes)
+        for stage, function, sizes in (
+            ("net forces", forces, LARGE),
+            ("J", assembly, LARGE),
+            ("g", moduli, LARGE),
+        )
+        for name, state, law in STATES
+    ]
+    walks = (("frictionless, 2N", NONE), ("elastic", ELASTIC), ("smoothed Coulomb", SMOOTHED))
+    return found + [
+        Row("shear, a step", name, partial(sheared, law), SMALL, 10) for name, law in walks
+    ]
+
+
+def _spectra() -> list[Row]:
+    found = [
+        Row(stage, name, partial(bands, averages, law), sizes)
+        for stage, averages, sizes in (("counts", False, LARGE), ("bands", True, SMALL))
+        for name, _, law in STATES[:2]
+    ]
+    return found + [
+        Row(stage, name, partial(eigen, modes, state, law), SMALL)
+        for stage, modes in (("eigenvalues", False), ("modes", True))
+        for name, state, law in STATES
+    ]

@@ -1,0 +1,169 @@
+"""The works of the table of costs, each timed at one N: φ = 0.90, k_T/k_N = 1e-4.
+
+Commands are timed as a study runs them, with reading and writing; a first run on few grains takes
+start-up and compilation out of the time. What takes less than `SHORT` is repeated, and the shortest
+run counts.
+"""
+
+from __future__ import annotations
+
+import json
+import resource
+import time
+from collections.abc import Callable
+from itertools import pairwise
+from pathlib import Path
+from typing import NamedTuple
+
+from grainmodes.cli import main
+from grainmodes.cost.work import USUAL_STEP
+from grainmodes.dataset.files import read_block, write_block
+from grainmodes.parameters.grid import checkpoints_up_to
+from grainmodes.protocols.compression.trajectory import advanced, placed
+from grainmodes.relaxation.frictionless import relax_fast
+from grainmodes.stages.rows import block_of
+from grainmodes.stages.samples import packed
+from measurements.benchmarks import cases
+from measurements.benchmarks.cases import HERTZ, PROTOCOL
+
+PHI, KT = 0.9, 1e-4
+
+FEW = 64
+"""Grains of the first run of each work."""
+
+LOOSE = 1e-5
+"""Largest force on a grain that a trajectory leaves at φ = 0.90: 1e-3 of the mean contact force."""
+
+SHEARED = 0.02
+"""Strain to which a shear is timed."""
+
+FINENESS = 0.01
+"""Factor on the numbers of linear bins where edges are counted: 33 edges instead of 160."""
+
+SHORT, MOST = 1.0, 5
+"""CPU seconds below which a work is repeated, up to so many runs."""
+
+SPECTRA = {
+    "dense_values": ("eigenvalues", "dense", "auto"),
+    "dense_modes": ("modes", "dense", "auto"),
+    "window_superlu": ("modes", "windows", "superlu"),
+    "window_pardiso": ("modes", "windows", "pardiso"),
+    "count_superlu": ("counts", "counting", "superlu"),
+    "count_pardiso": ("counts", "counting", "pardiso"),
+}
+"""Name of a work → kind of the spectrum, method, factorisation."""
+
+
+class Timed(NamedTuple):
+    """CPU seconds of a work, how many units of it that were, and the peak memory in MB."""
+
+    seconds: float
+    units: float
+    megabytes: float
+
+
+def timed(work: str, n: int, folder: Path) -> Timed:
+    """One work at n grains, in this process; `folder` keeps packings for other works."""
+    run = {
+        "trajectory": lambda n: sum(climb(n)),
+        "pack": _balance,
+        "pairs": lambda n: cases.pairs_along(n, "carried", SHEARED),
+    }.get(work, lambda n: _respond(work, n, folder))
+    run(FEW)
+    return Timed(_shortest(run, n), _units(work, n, folder), peak())
+
+
+def _shortest(run: Callable[[int], float], n: int) -> float:
+    seconds = [run(n)]
+    while sum(seconds) < SHORT and len(seconds) < MOST:
+        seconds.append(run(n))
+    return min(seconds)
+
+
+def climb(n: int) -> list[float]:
+    """CPU seconds from random placement to the lowest checkpoint, then from each to the next."""
+    now, clock = None, [time.process_time()]
+    for phi in checkpoints_up_to(PHI):
+        now = advanced(now or placed(n, 0, HERTZ, PROTOCOL), phi, HERTZ, PROTOCOL)
+        clock.append(time.process_time())
+    return [after - before for before, after in pairwise(clock)]
+
+
+def start_up() -> float:
+    """CPU seconds of a job with next to nothing to do."""
+    return cases.start_up(16)
+
+
+def peak() -> float:
+    """Largest resident memory of this process so far, in MB."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+
+
+def bare(folder: Path) -> float:
+    """Peak memory of a job on few grains, in MB."""
+    _respond("rigidity", FEW, folder)
+    return peak()
+
+
+def _balance(n: int) -> float:
+    loose = cases.quenched(n, PHI, LOOSE)
+    return cases.cpu(relax_fast, loose, HERTZ, PROTOCOL.force_tolerance, PROTOCOL.max_iterations)
+
+
+def _respond(work: str, n: int, folder: Path) -> float:
+    """CPU seconds of the command of a response, its own processes included."""
+    command = "spectrum" if work in SPECTRA else work.replace("_", "-")
+    sheared = work == "shear"
+    words = [command, str(_packings(n, folder, sheared)), "--kt", str(1.0 if sheared else KT)]
+    words += ["--settings", json.dumps(_settings(work)), "-o", str(_output(work, n, folder))]
+    before = _used()
+    if main(words):
+        raise RuntimeError(f"grainmodes {' '.join(words)} failed")
+    return _used() - before
+
+
+def _settings(work: str) -> dict:
+    sheared = {"protocol": {"shear": {"strain": SHEARED}}}
+    if work == "shear":
+        return {"contact_law": {"normal": "harmonic"}} | sheared
+    if work == "variants":
+        return sheared
+    if work not in SPECTRA:
+        return {}
+    kind, method, factorisation = SPECTRA[work]
+    choices = {"method": method, "factorisation": factorisation, "fineness": FINENESS}
+    return {"observables": {"spectrum": kind}, "protocol": {"spectrum": choices}}
+
+
+def _used() -> float:
+    own = time.process_time()
+    children = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return own + children.ru_utime + children.ru_stime
+
+
+def _units(work: str, n: int, folder: Path) -> float:
+    """Modes of windows, edges of counts, steps or states of a shear; else one sample."""
+    if work in ("shear", "variants", "pairs"):
+        return SHEARED / USUAL_STEP
+    names = {"window": "mode_count", "count": "bin_edge"}
+    name = names.get(work.split("_")[0])
+    if name is None:
+        return 1.0
+    variable = read_block(_output(work, n, folder)).variables[name]
+    return float(variable[0]) if name == "mode_count" else float(variable.shape[1])
+
+
+def _output(work: str, n: int, folder: Path) -> Path:
+    return folder / f"{work}-{n}.nc"
+
+
+def _packings(n: int, folder: Path, harmonic: bool) -> Path:
+    """A file of one packing."""
+    path = folder / f"packings-{n}{'-harmonic' * harmonic}.nc"
+    if not path.exists():
+        packing = cases.harmonic_at(n, PHI) if harmonic else cases.balanced_at(n, PHI)
+        normal = cases.HARMONIC.normal if harmonic else HERTZ
+        point = {"stage": "packings", "n": n, "phi": PHI}
+        row = packed(packing, normal) | {"converged": True}
+        write_block(path, block_of([0], lambda _: row, {}, point))
+    return path

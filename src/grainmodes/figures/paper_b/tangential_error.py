@@ -1,0 +1,62 @@
+"""Is the integral of tangential velocities tangential? (B, Fig. 10.)
+
+B finds Err below 3e-16. That is what a single increment has against its own normal; the integral
+over a contact that turns has an Err of half its turn.
+"""
+
+from __future__ import annotations
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from grainmodes.dataset.files import Block
+from grainmodes.figures.shared.close_up_rows import SAMPLE, caption, rows
+from grainmodes.figures.shared.field_rows import at_kt, at_point, joined
+from grainmodes.figures.shared.selection import Options
+
+PAPER_N, PAPER_ERROR = 128, 3e-16
+
+COLUMNS = {
+    **SAMPLE,
+    "strain": ("1", "strain"),
+    "error_largest": ("1", "largest Err of a contact"),
+    "error_median": ("1", "median Err of the contacts"),
+    "error_increment": ("1", "largest Err of the last step alone, against its own normal"),
+    "turn_median": ("rad", "median angle by which contacts have turned since they closed"),
+    "length_median": ("1", "median relative difference of the length of the integral and s"),
+}
+
+CURVES = {
+    "error_largest": ("largest Err", "#b2182b", "-"),
+    "error_median": ("median Err", "#2166ac", "-"),
+    "half_turn": ("half the median turn", "k", ":"),
+    "length_median": (r"$\left||V| - |s|\right| / |s|$, median", "0.5", "-."),
+    "error_increment": ("largest Err of one step", "#4d9221", "--"),
+}
+
+
+def table(close_ups: list[Block], options: Options) -> pd.DataFrame:
+    """A row per state of the walk up to the first event, with the columns `COLUMNS`.
+
+    Raises:
+        ValueError: no sample has the n, phi or kt asked for.
+    """
+    having = [b for b in close_ups if b.variables.get("path_count", [0])[0]]
+    variables = {column: f"path_{column}" for column in list(COLUMNS)[len(SAMPLE) :]}
+    shown = at_kt(at_point(having, options, PAPER_N), options)
+    return joined((rows(block, variables) for block in shown), COLUMNS)
+
+
+def draw(figure: Figure, table: pd.DataFrame) -> None:
+    """All on logarithmic axes: slope 1 is first order in the strain, slope 2 second."""
+    figure.set_size_inches(3.9, 3.4)
+    axes = figure.subplots()
+    of = table.assign(half_turn=table["turn_median"] / 2.0)
+    for column, (label, colour, dash) in CURVES.items():
+        shown = of[of[column] > 0.0]
+        axes.plot(shown["strain"], shown[column], dash, color=colour, label=label)
+    bound = r"paper: below $3 \times 10^{-16}$"
+    axes.axhline(PAPER_ERROR, color="0.75", lw=2.5, zorder=0, label=bound)
+    axes.set(xscale="log", yscale="log", xlabel=r"$\gamma$", ylabel="Err", ylim=(3e-17, 30.0))
+    axes.legend(loc="center right", bbox_to_anchor=(1.0, 0.32))
+    figure.suptitle(caption(table))

@@ -1,0 +1,89 @@
+"""Net forces, stress and pressure of a packing from its contacts.
+
+    F_i = Σ_j f_ij,   scaled torque 2 T_i / d_i = Σ_j f_T,ij          A (3)–(5), J of physics: F̃_i
+    σ_αβ = −(1/L²) Σ_{i<j} f^α_ij r^β_ij                              A (14)
+
+Frictionless interactions give (N, 2) arrays: torque does not exist.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes.kernels.assembly import on_grains
+from grainmodes.kernels.contacts import contact_forces, normal_forces
+from grainmodes.kernels.energies import contact_energies
+from grainmodes.kernels.laws import AT_THRESHOLD, Frictionless, Interaction
+from grainmodes.kernels.springs import thresholds
+from grainmodes.packing.contacts import Contacts
+from grainmodes.packing.state import Packing
+
+SIGNS = np.array([-1.0, -1.0, 1.0])
+"""How (x, y, ℓ) of grain j enter the relative coordinates and the force."""
+
+
+def is_frictionless(interaction: Interaction) -> bool:
+    """Whether rotation, torque and history exist."""
+    return isinstance(interaction.tangential, Frictionless)
+
+
+def forces_on_i(contacts: Contacts, interaction: Interaction) -> np.ndarray:
+    """Force of every contact on its grain i, k_N d^(3/2): (C, 2), or (C, 3) with f_T last."""
+    if is_frictionless(interaction):
+        return normal_forces(interaction, contacts.normal, contacts.overlap)
+    s = contacts.tangential_displacement
+    return contact_forces(interaction, contacts.normal, contacts.overlap, s)
+
+
+def tangential_forces(interaction: Interaction, overlap: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """f_T of contacts with these overlaps and tangential displacements, (C,)."""
+    along_x = np.tile([1.0, 0.0], (len(s), 1))
+    return contact_forces(interaction, along_x, overlap, s)[:, 2]
+
+
+def sliding(contacts: Contacts, interaction: Interaction) -> np.ndarray:
+    """Contacts at Coulomb's threshold, |s| ≥ s* = μ (k_N/k_T) ξ or |h| ≥ μ f_N: (C,) bool; C (8).
+
+    None without friction, or with springs that never slip.
+    """
+    slides_at = thresholds(interaction, contacts.overlap)
+    return np.abs(contacts.displacement) >= AT_THRESHOLD * slides_at
+
+
+def net_force(packing: Packing, contacts: Contacts, interaction: Interaction) -> np.ndarray:
+    """F̃ on every grain: (N, 2) frictionless, else (N, 3) = (F_x, F_y, 2 T/d), in k_N d^(3/2)."""
+    return net(contacts, forces_on_i(contacts, interaction), packing.n)
+
+
+def net(contacts: Contacts, forces: np.ndarray, n: int) -> np.ndarray:
+    """What forces (C, k) on the grains i of all contacts do to every grain, (N, k)."""
+    return on_grains(forces, SIGNS[: forces.shape[1]], contacts.i, contacts.j, n)
+
+
+def largest(force: np.ndarray) -> tuple[float, float]:
+    """(max |F|, max scaled |torque|) over grains and components; torque is 0 without friction."""
+    if len(force) == 0:
+        return 0.0, 0.0
+    torque = float(np.abs(force[:, 2]).max()) if force.shape[1] == 3 else 0.0
+    return float(np.abs(force[:, :2]).max()), torque
+
+
+def stress(packing: Packing, contacts: Contacts, interaction: Interaction) -> np.ndarray:
+    """σ_αβ, shape (2, 2), in k_N d^(1/2)."""
+    branch = contacts.normal * contacts.distance[:, None]
+    forces = forces_on_i(contacts, interaction)[:, :2]
+    return -(forces.T @ branch) / packing.box_length**2
+
+
+def energy(contacts: Contacts, interaction: Interaction) -> float:
+    """Energy stored in the contacts: see `kernels.energies`."""
+    s = contacts.tangential_displacement
+    return float(contact_energies(interaction, contacts.overlap, s).sum())
+
+
+def mean_contact_force(contacts: Contacts, interaction: Interaction) -> float:
+    """Mean magnitude of the contact forces; 0 without contacts."""
+    if len(contacts.i) == 0:
+        return 0.0
+    forces = forces_on_i(contacts, interaction)
+    return float(np.hypot(forces[:, 0], forces[:, 1]).mean())

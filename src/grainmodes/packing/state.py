@@ -1,0 +1,183 @@
+"""The state of a packing: where the grains are; what touches then follows (`contacts`).
+
+| symbol            | name                    | shape, type          | unit    |
+| ----------------- | ----------------------- | -------------------- | ------- |
+| s_i = r_i / L     | fraction                | (2, N) int64         | 2⁻⁶⁴ L  |
+| d_i               | diameter                | (N,) float64         | d       |
+| m_i               | mass                    | (N,) float64         | m       |
+| ℓ_i = d_i θ_i / 2 | rotation                | (N,) float64 or None | d       |
+| L, γ              | box_length, strain      | float                | d, 1    |
+
+A packing is never changed in place. Compression changes L, affine shear changes γ, and neither
+touches the fractions.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours, matched, touching
+from grainmodes.packing.box import (
+    PackingError,
+    check_box,
+    check_grains,
+    check_rotation,
+    check_springs,
+    to_fraction,
+    to_step,
+)
+from grainmodes.packing.contacts import Contacts, History, rattlers
+
+
+@dataclass(frozen=True)
+class Packing:
+    """Grains in a periodic (sheared) square box."""
+
+    fraction: np.ndarray
+    diameter: np.ndarray
+    mass: np.ndarray
+    box_length: float
+    strain: float = 0.0
+    rotation: np.ndarray | None = None
+    history: History | None = None
+
+    @classmethod
+    def from_positions(cls, position, diameter, box_length, strain=0.0, mass=None, history=None):
+        """A packing from absolute positions (N, 2) in d; mass defaults to d_i² (A, B).
+
+        Raises:
+            PackingError: shapes disagree, a number is not finite, a diameter or L not positive.
+        """
+        position = np.asarray(position, float)
+        diameter = np.array(diameter, float)
+        mass = diameter**2 if mass is None else np.array(mass, float)
+        check_grains(position, diameter, mass)
+        check_box(diameter, box_length, strain)
+        check_springs(history)
+        y = position[:, 1] / box_length
+        x = position[:, 0] / box_length - strain * y
+        return cls(
+            np.stack([to_fraction(x), to_fraction(y)]),
+            diameter,
+            mass,
+            float(box_length),
+            float(strain),
+            None,
+            history and History.of(history.i, history.j, history.tangential_displacement),
+        )
+
+    def checked(self) -> Packing:
+        """This packing.
+
+        Raises:
+            PackingError: a number is not finite, a diameter or mass not positive, L too small.
+        """
+        check_grains(self.fraction.T, self.diameter, self.mass)
+        check_box(self.diameter, self.box_length, self.strain)
+        check_rotation(self.rotation)
+        check_springs(self.history)
+        return self
+
+    @property
+    def n(self) -> int:
+        """Number of grains."""
+        return self.diameter.shape[0]
+
+    @property
+    def phi(self) -> float:
+        """Projected area fraction Σ π d_i²/4 / L²."""
+        return float(np.sum(np.pi * self.diameter**2 / 4.0) / self.box_length**2)
+
+    @property
+    def position(self) -> np.ndarray:
+        """Positions (N, 2) in [0, L) of the sheared frame, in d (rounded: `fraction` is exact)."""
+        x, y = self.fraction * RESOLUTION + 0.5
+        sheared = (x + self.strain * y) % 1.0
+        return np.stack([sheared, y], axis=1) * self.box_length
+
+    def at(self, phi: float) -> Packing:
+        """The same fractions in the box of area fraction φ: affine compression, A (A1), (A2).
+
+        Raises:
+            PackingError: φ is not positive, or its box too small.
+        """
+        if not phi > 0.0:
+            raise PackingError(f"phi = {phi}: needed is a positive area fraction")
+        area = np.sum(np.pi * self.diameter**2 / 4.0)
+        box_length = float(np.sqrt(area / phi))
+        check_box(self.diameter, box_length, self.strain)
+        return replace(self, box_length=box_length)
+
+    def sheared(self, strain: float) -> Packing:
+        """The same fractions in the box at strain γ: affine shear.
+
+        Raises:
+            PackingError: the box is too small to be sheared so far.
+        """
+        check_box(self.diameter, self.box_length, strain)
+        return replace(self, strain=float(strain))
+
+    def displaced(self, displacement: np.ndarray) -> Packing:
+        """Grains moved by (N, 2) in d, any number of boxes far; the rotation is left alone.
+
+        Raises:
+            PackingError: a displacement is no number.
+        """
+        s_y = displacement[:, 1] / self.box_length
+        s_x = displacement[:, 0] / self.box_length - self.strain * s_y
+        return replace(self, fraction=self.fraction + to_step(np.stack([s_x, s_y])))
+
+    def without(self, mask: np.ndarray) -> Packing:
+        """The packing without the grains of a (N,) mask, renumbered, its springs with it."""
+        keep = ~mask
+        return replace(
+            self,
+            fraction=np.ascontiguousarray(self.fraction[:, keep]),
+            diameter=self.diameter[keep],
+            mass=self.mass[keep],
+            rotation=None if self.rotation is None else self.rotation[keep],
+            history=None if self.history is None else self.history.among(keep),
+        )
+
+
+def nonaffine_motion(before: Packing, after: Packing) -> np.ndarray:
+    """(Δr̊, Δℓ̊) of every grain between two states of a packing, exact in the fractions; (N, k) in d.
+
+    r = L (s_x + γ s_y, s_y), of which the change of γ alone is the affine part. Without rotation
+    k is 2.
+    """
+    x, y = (after.fraction - before.fraction) * (RESOLUTION * before.box_length)
+    moved = [x + after.strain * y, y]
+    if after.rotation is not None:
+        at_first = 0.0 if before.rotation is None else before.rotation
+        moved.append(after.rotation - at_first)
+    return np.stack(moved, axis=1)
+
+
+def find_contacts(packing: Packing) -> Contacts:
+    """All touching pairs, r < (d_i + d_j)/2, with s from the history where there is one.
+
+    Raises:
+        PackingError: two grains lie at the same place.
+    """
+    if packing.n == 0:
+        nothing = np.zeros(0, np.int32)
+        return Contacts(nothing, nothing, np.zeros((0, 2)), np.zeros(0), np.zeros(0))
+    x, y = packing.fraction
+    pairs = find_neighbours(x, y, packing.diameter, packing.box_length, packing.strain, 0.0)
+    scale = packing.box_length * RESOLUTION
+    i, j, normal, distance, overlap = touching(x, y, pairs, scale, packing.strain)
+    if len(i) and distance.min() == 0.0:
+        k = int(np.argmin(distance))
+        raise PackingError(f"grains {i[k]} and {j[k]} lie at the same place: no normal is defined")
+    known = packing.history
+    s = known and matched(known.i, known.j, known.tangential_displacement, i, j)
+    return Contacts(i, j, normal, distance, overlap, s)
+
+
+def backbone(packing: Packing, threshold: int) -> Packing:
+    """The packing without its rattlers, those of at most `threshold` contacts."""
+    gone = rattlers(find_contacts(packing), packing.n, threshold)
+    return packing.without(gone) if gone.any() else packing

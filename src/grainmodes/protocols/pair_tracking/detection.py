@@ -1,0 +1,107 @@
+"""The complex pairs of one state of a walk, by a detector that may remember the state before."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+from grainmodes.complex_pairs.continuation import Carried
+from grainmodes.complex_pairs.definition import (
+    Loaded,
+    Pairs,
+    dense_pairs,
+    mass_weighted,
+    on_all_grains,
+    translations,
+)
+from grainmodes.complex_pairs.disc_sweep import pairs_by_windows
+from grainmodes.complex_pairs.matching import Planes
+from grainmodes.complex_pairs.plane import plane_of
+from grainmodes.protocols.pair_tracking.exceptional_points import Side
+from grainmodes.relaxation.balance import Balance
+from grainmodes.response.stability import INERTIA
+
+
+class Detector(Protocol):
+    """Finds the complex pairs of one matrix after the other."""
+
+    dense: bool
+    """Whether LAPACK solved the last one."""
+
+    def find(self, loaded: Loaded) -> Pairs:
+        """Every complex pair of K on the grains that carry load."""
+
+
+class ByLapack:
+    """The definition: every matrix solved anew."""
+
+    dense = True
+
+    def find(self, loaded: Loaded) -> Pairs:
+        """Every complex pair of K."""
+        return dense_pairs(loaded.matrix)
+
+
+class ByWindows:
+    """Every matrix solved anew, in windows: for states too large for LAPACK."""
+
+    dense = False
+
+    def find(self, loaded: Loaded) -> Pairs:
+        """Every complex pair of K.
+
+        Raises:
+            ArithmeticError: an iteration did not converge, or the eigenvalues do not add up.
+        """
+        return pairs_by_windows(loaded.matrix, loaded.null)
+
+
+DETECTORS: dict[str, type[Detector]] = {
+    "carried": Carried,
+    "dense": ByLapack,
+    "windows": ByWindows,
+}
+"""How pairs are found, by the name of the choice."""
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """A state with its pairs, their vectors on all grains."""
+
+    balance: Balance
+    pairs: Pairs
+
+    @cached_property
+    def planes(self) -> Planes:
+        """The planes of the pairs."""
+        return Planes.of(self.pairs)
+
+    @property
+    def strain(self) -> float:
+        """γ."""
+        return self.balance.packing.strain
+
+    def motions(self, places: np.ndarray) -> np.ndarray:
+        """q = M^(−1/2) u of some of the pairs, (N, 3, P) complex."""
+        scale = 1.0 / np.sqrt(self.balance.packing.mass[:, None] * INERTIA)
+        return self.pairs.right[:, places].reshape(*scale.shape, -1) * scale[:, :, None]
+
+    def side(self, place: int) -> Side:
+        """The state with the plane of one of its pairs."""
+        held = np.repeat(self.balance.held, 3)
+        right, left = (
+            np.stack([of[held, place].real, of[held, place].imag], axis=1)
+            for of in (self.pairs.right, self.pairs.left)
+        )
+        return Side(self.balance, plane_of(mass_weighted(self.balance), right, left))
+
+
+def seen_by(detector: Detector, balance: Balance) -> Seen:
+    """A state with the pairs that a detector finds in it."""
+    null = translations(balance.backbone.mass)
+    found = detector.find(Loaded(mass_weighted(balance), null, balance.held))
+    right, left = (on_all_grains(of, balance.held) for of in (found.right, found.left))
+    return Seen(balance, Pairs(found.value, right, left))

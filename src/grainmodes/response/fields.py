@@ -1,0 +1,131 @@
+"""The fields of a packing: how its grains answer a step strain, and single eigenvectors.
+
+    r_i(Δγ) − r_i(0) = Δγ (y_i − L/2, 0) + Δr̊_i,    ℓ_i(Δγ) − ℓ_i(0) = Δℓ̊_i        A (10), (11)
+    u_i = (dr̊_i/dγ, dℓ̊_i/dγ)                                                     A (12), (13), (33)
+
+u is found in three ways that must agree: the direct solve of `rigidity`, the sum over the modes,
+A (38), and the relaxed states at Δγ and −Δγ. A takes the forward difference; the central one leaves
+an error of second order. Eigenvectors, J R_n = λ_n R_n with λ_n = ω_n², are those of A (21), (48).
+
+A field is (N, 3), components (x, y, ℓ), on all grains: NaN for the rattlers, which are taken out
+before anything is solved, and NaN for ℓ where friction does not exist. The mean of x and of y is
+zero: a translation of all grains is no answer to strain.
+
+| symbol  | name                       |   | symbol | name                        |
+| ------- | -------------------------- | - | ------ | --------------------------- |
+| y − L/2 | `affine_field`             |   | ω_n    | `NearestModes.frequency`    |
+| u       | `nonaffine_field`, …       |   | R_n    | `NearestModes.eigenvector`  |
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from grainmodes.kernels.laws import Interaction
+from grainmodes.packing.contacts import rattlers
+from grainmodes.packing.state import Packing, find_contacts, nonaffine_motion
+from grainmodes.parameters.spectra import SpectrumChoices
+from grainmodes.parameters.strain import StepStrain
+from grainmodes.protocols.shear.step_strain import relaxed_steps
+from grainmodes.response.mode_sum import mode_sum
+from grainmodes.response.moduli import rigidity
+from grainmodes.spectrum import Problem, problem, spectrum, spectrum_slicing
+
+
+@dataclass(frozen=True)
+class NearestModes:
+    """M modes: ω_n in 1/t_0 (M,), R_n of norm 1 (M, N, 3), and |J R − λ R| (M,)."""
+
+    frequency: np.ndarray
+    eigenvector: np.ndarray
+    residual: np.ndarray
+
+
+def affine_field(packing: Packing) -> np.ndarray:
+    """(y_i − L/2, 0, 0) of every grain, (N, 3) in d: the affine displacement per unit strain."""
+    field = np.zeros((packing.n, 3))
+    field[:, 0] = packing.position[:, 1] - packing.box_length / 2
+    return field
+
+
+def nonaffine_field(packing: Packing, interaction: Interaction, threshold: int = 2) -> np.ndarray:
+    """u from one sparse solve, for springs that the affine step does not load; (N, 3) in d.
+
+    Raises:
+        FloppyError: the backbone has zero modes beyond the translations.
+    """
+    gone = _rattlers(packing, threshold)
+    return _on_all(rigidity(packing, interaction, threshold).unloaded.displacement, gone)
+
+
+def mode_sum_field(packing: Packing, interaction: Interaction, threshold: int = 2) -> np.ndarray:
+    """u from all eigenvectors of a dense J, A (38); (N, 3) in d.
+
+    Raises:
+        ValueError: J is not symmetric.
+    """
+    gone = _rattlers(packing, threshold)
+    modes = spectrum(packing, interaction, threshold, choices=SpectrumChoices(method="dense"))
+    return _on_all(mode_sum(packing, interaction, modes, threshold).displacement, gone)
+
+
+def simulated_field(
+    packing: Packing, interaction: Interaction, protocol: StepStrain, threshold: int = 2
+) -> np.ndarray:
+    """u from step strains to both sides, relaxed by the full non-linear forces; (N, 3) in d.
+
+    Raises:
+        ArithmeticError: a relaxation did not reach its force tolerance.
+    """
+    gone = _rattlers(packing, threshold)
+    backbone = packing.without(gone)
+    steps = relaxed_steps(backbone, interaction, protocol)
+    for step in steps:
+        if not step.converged:
+            worst = max(step.max_force, step.max_torque)
+            raise ArithmeticError(f"step strain: {worst:.1e} is left after {step.iterations} steps")
+    forward, backward = (nonaffine_motion(backbone, step.packing) for step in steps)
+    u = (forward - backward) / (2.0 * protocol.strain)
+    u[:, :2] -= u[:, :2].mean(axis=0)
+    return _on_all(u, gone)
+
+
+def nearest_modes(
+    packing: Packing, interaction: Interaction, frequencies: tuple[float, ...], threshold: int = 2
+) -> NearestModes:
+    """The mode whose λ lies nearest to ω², for each ω in `frequencies` (1/t_0); no translation.
+
+    Raises:
+        ValueError: J is not symmetric.
+    """
+    if packing.history is not None:
+        raise ValueError("single modes need a symmetric Jacobian, every s = 0")
+    gone = _rattlers(packing, threshold)
+    of = problem(packing, interaction, threshold)
+    pairs = [_nearest(of, frequency**2) for frequency in frequencies]
+    values, vectors = np.array([value for value, _ in pairs]), np.array([r for _, r in pairs])
+    return NearestModes(
+        np.sqrt(np.abs(values)),
+        np.stack([_on_all(vector.reshape(-1, of.k), gone) for vector in vectors]),
+        np.linalg.norm(of.matrix @ vectors.T - vectors.T * values, axis=0),
+    )
+
+
+def _nearest(of: Problem, shift: float) -> tuple[float, np.ndarray]:
+    """The eigenpair nearest a shift that is no translation; its largest component is positive."""
+    (value,), vectors = spectrum_slicing.nearest(of.shift(), shift, 1)
+    vector = vectors[:, 0]
+    return value, vector * np.sign(vector[np.argmax(np.abs(vector))])
+
+
+def _rattlers(packing: Packing, threshold: int) -> np.ndarray:
+    return rattlers(find_contacts(packing), packing.n, threshold)
+
+
+def _on_all(field: np.ndarray, gone: np.ndarray) -> np.ndarray:
+    """A field (N', k) of the backbone on all N grains, (N, 3)."""
+    whole = np.full((len(gone), 3), np.nan)
+    whole[~gone, : field.shape[1]] = field
+    return whole

@@ -1,0 +1,86 @@
+"""Rigidity as a sum over modes: A (38), (44), for a symmetric J (L_n = R_n).
+
+    u = Σ'_n (R_n · Σa) R_n / λ_n
+    g_NA = −(1/L²) Σ'_n (R_n · Σa_loaded) (R_n · Σa) / λ_n
+
+Σ' leaves out the two translations. The second line is the first put into A (44): the stress that u
+relaxes is that of the loaded affine step (`rigidity`), since K is symmetric. It needs two
+projections of every mode and no mode itself. The sum must equal the direct solve; it is here
+because it says which modes carry the response.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes.kernels.laws import Interaction
+from grainmodes.packing.state import Packing, backbone, find_contacts
+from grainmodes.response.moduli import AffineStep, Moduli
+from grainmodes.spectrum import Spectrum
+
+
+def mode_sum(
+    packing: Packing,
+    interaction: Interaction,
+    spectrum: Spectrum,
+    threshold: int = 2,
+    loaded: bool = False,
+) -> Moduli:
+    """g of a packing, and its non-affine field, from all modes of its J without rattlers.
+
+    Raises:
+        ValueError: the Jacobian is not symmetric.
+    """
+    step = _step(packing, interaction, threshold, loaded)
+    elastic = elastic_modes(spectrum.eigenvalue)
+    modes = spectrum.modes[:, elastic]
+    weight = modes.T @ step.force.ravel() / spectrum.eigenvalue[elastic]
+    return step.moduli(modes @ weight)
+
+
+class ModeRigidity:
+    """What each mode gives to the unloaded g_NA of a packing without its rattlers.
+
+    `forces` (M, 2) is what the spectrum has to project its modes on.
+
+    Raises:
+        ValueError: the Jacobian is not symmetric.
+    """
+
+    def __init__(self, packing: Packing, interaction: Interaction, threshold: int = 2):
+        self._unloaded, loaded = (
+            _step(packing, interaction, threshold, how) for how in (False, True)
+        )
+        self.forces = np.stack([self._unloaded.force.ravel(), loaded.force.ravel()], axis=1)
+        self._area = packing.box_length**2
+
+    @property
+    def g_affine(self) -> float:
+        """g_A of the unloaded step."""
+        return self._unloaded.moduli(np.zeros(len(self.forces))).g_affine
+
+    def contributions(self, spectrum: Spectrum) -> np.ndarray:
+        """g_NA of every mode (M,), k_N d^(1/2); 0 for the translations.
+
+        Raises:
+            ArithmeticError: more eigenvalues are 0 than the two of the translations.
+        """
+        elastic = elastic_modes(spectrum.eigenvalue)
+        if np.any(spectrum.eigenvalue[elastic] == 0.0):
+            raise ArithmeticError("some modes lie below the lowest safe edge: no sum over modes")
+        product = spectrum.projection[elastic].prod(axis=1) / spectrum.eigenvalue[elastic]
+        shares = np.zeros(len(spectrum.eigenvalue))
+        shares[elastic] = -product / self._area
+        return shares
+
+
+def elastic_modes(eigenvalue: np.ndarray) -> np.ndarray:
+    """Indices of all modes but the two translations, those of the smallest |λ|."""
+    return np.sort(np.argsort(np.abs(eigenvalue), kind="stable")[2:])
+
+
+def _step(packing: Packing, interaction: Interaction, threshold: int, loaded: bool) -> AffineStep:
+    if packing.history is not None:
+        raise ValueError("the sum over modes needs a symmetric Jacobian, every s = 0")
+    rigid = backbone(packing, threshold)
+    return AffineStep(rigid, find_contacts(rigid), interaction, loaded)

@@ -1,0 +1,125 @@
+"""Eigenvalues on which the stability of a state hangs: A, footnote 1; B, Figs. 3, 7, 13; C.
+
+The lowest eigenvalue of J tells how far a state is from giving way (B). Complex pairs make it grow
+oscillations (C):
+
+    M q̈ = −J q,   M = diag(m, m, m/2) grain by grain      iω = ±√(−λ'), λ' of M⁻¹J
+
+The eigenvalues are those of M^(−1/2) J M^(−1/2), which is symmetric where J is.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse as sparse
+from scipy.sparse.linalg import LinearOperator, eigs
+
+from grainmodes.kernels.laws import Interaction
+from grainmodes.linalg.pinned_factor import PinnedFactor
+from grainmodes.packing.jacobian import jacobian
+from grainmodes.packing.state import Packing, find_contacts
+
+INERTIA = np.array([1.0, 1.0, 0.5])
+"""Inertia of (x, y, ℓ) in units of m_i: 4 I_i/d_i² = m_i/2."""
+
+REAL = 1e-9
+"""|Im λ'| up to which an eigenvalue counts as real, k_N d^(1/2)/m."""
+
+
+def complex_pairs(packing: Packing, interaction: Interaction) -> int:
+    """Number of complex-conjugate pairs of eigenvalues of M⁻¹J, dense; with friction only.
+
+    Raises:
+        numpy.linalg.LinAlgError: the eigensolver did not converge.
+    """
+    return int(np.count_nonzero(eigenvalues(packing, interaction).imag > REAL))
+
+
+def eigenvalues(packing: Packing, interaction: Interaction) -> np.ndarray:
+    """All 3N eigenvalues of M⁻¹J, complex, in no order; dense, for states in balance or not.
+
+    Raises:
+        numpy.linalg.LinAlgError: the eigensolver did not converge.
+    """
+    matrix = jacobian(packing, find_contacts(packing), interaction).toarray()
+    scale = 1.0 / np.sqrt(packing.mass[:, None] * INERTIA).ravel()
+    return scipy.linalg.eigvals(scale[:, None] * matrix * scale, overwrite_a=True)
+
+
+def asymmetry(matrix: sparse.csc_array) -> float:
+    """max|J − Jᵀ| / max|J|: B, App. D3, has none, without −(f_T/r) n tᵀ; 0 for an empty J."""
+    largest = abs(matrix).max() if matrix.nnz else 0.0
+    return float(abs(matrix - matrix.T).max() / largest) if largest else 0.0
+
+
+SMALL = 60
+"""Degrees of freedom up to which the lowest eigenvalue is found densely."""
+
+
+def lowest_eigenvalue(matrix: sparse.csc_array, factor: PinnedFactor, k: int) -> float:
+    """Smallest |λ| of J but its two translations, with the sign of its real part: B, Sec. IV.
+
+    Args:
+        matrix: J (M, M), k degrees of freedom a grain.
+        factor: its factors, by which J⁻¹ on forces without a sum is iterated.
+    """
+    size = matrix.shape[0]
+    if size <= SMALL:
+        values = scipy.linalg.eigvals(matrix.toarray())
+        values = values[np.argsort(np.abs(values))][2:]
+        return _signed(values[0]) if len(values) else np.nan
+    largest = eigs(**_inverted(size, factor, k), return_eigenvectors=False)
+    return _signed(1.0 / largest[0])
+
+
+class LowestMode(NamedTuple):
+    """λ with R of norm 1, (M,), and |J R − λ R|; of a complex pair the real part of R."""
+
+    eigenvalue: float
+    vector: np.ndarray
+    residual: float
+
+
+def lowest_mode(matrix: sparse.csc_array, factor: PinnedFactor, k: int) -> LowestMode:
+    """The eigenvector of `lowest_eigenvalue`, its largest component positive: B, Fig. 4.
+
+    A complex pair has no real eigenvector; its residual is then of the size of λ.
+    """
+    size = matrix.shape[0]
+    if size <= SMALL:
+        values, vectors = scipy.linalg.eig(matrix.toarray())
+        place = np.argsort(np.abs(values))[2]
+        value, vector = values[place], vectors[:, place]
+    else:
+        largest, vectors = eigs(**_inverted(size, factor, k))
+        value, vector = 1.0 / largest[0], vectors[:, 0]
+    top = vector[np.argmax(np.abs(vector))]
+    real = (vector * (np.abs(top) / top)).real
+    real /= np.linalg.norm(real)
+    signed = _signed(value)
+    return LowestMode(signed, real, float(np.linalg.norm(matrix @ real - signed * real)))
+
+
+def _inverted(size: int, factor: PinnedFactor, k: int) -> dict:
+    """J⁻¹ on fields without a translation, whose largest eigenvalue is asked for."""
+    inverse = LinearOperator(
+        (size, size),
+        matvec=lambda f: _centred(factor.solve(_centred(f, k), refined=False), k),
+        dtype=float,
+    )
+    start = _centred(np.random.default_rng(0).standard_normal(size), k)
+    return {"A": inverse, "k": 1, "which": "LM", "v0": start}
+
+
+def _centred(field: np.ndarray, k: int) -> np.ndarray:
+    """A field (kN,) without its translation."""
+    grains = field.reshape(-1, k).copy()
+    grains[:, :2] -= grains[:, :2].mean(axis=0)
+    return grains.ravel()
+
+
+def _signed(value: complex) -> float:
+    return float(np.copysign(abs(value), value.real))

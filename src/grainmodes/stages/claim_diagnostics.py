@@ -1,0 +1,153 @@
+"""Numbers that single claims of paper A need, a row per packing and k_T: stage `probes`.
+
+| claim                                        | probe                                  |
+| -------------------------------------------- | -------------------------------------- |
+| A12  D = D_H                                 | H − J, with slopes and with k_N, k_T   |
+| A16  g does not depend on Δγ                 | forward step strains of three sizes    |
+| A17  translational modes alone give g        | mode sum over ψ^T > 1/2                |
+| A18  velocity Verlet is right to Δt² and Δt  | one step against 32 short ones         |
+| A19  compressed with friction: complex pairs | frictional compression, then λ of M⁻¹J |
+
+A probe that fails leaves NaN in its place and its sentence among the failures of its seed; the row
+counts as converged all the same. NaN is also what does not exist: at k_T = 0 there is no velocity
+Verlet and no compression with friction, and dense matrices stop at `DENSE` and `COMPRESSED` grains.
+A packing that is not jammed has g = 0, and loosened and compressed again it stays so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, replace
+
+import numpy as np
+
+from grainmodes.dataset.files import Block
+from grainmodes.kernels.damping import Dashpot
+from grainmodes.kernels.laws import Interaction, interaction
+from grainmodes.packing.hessian import effective_hessian
+from grainmodes.packing.jacobian import jacobian
+from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.protocol import Protocol
+from grainmodes.parameters.strain import StepStrain
+from grainmodes.protocols.compression.frictional import frictional_compression
+from grainmodes.protocols.shear.step_strain import forward_rigidity
+from grainmodes.relaxation.accuracy import step_orders
+from grainmodes.response.mode_sum import ModeRigidity
+from grainmodes.response.stability import complex_pairs
+from grainmodes.spectrum import spectrum
+from grainmodes.stages.rows import SAMPLE_ERRORS, response_block
+from grainmodes.stages.samples import jammed_packing, seed_of
+
+STRAINS = (1e-6, 1e-5, 1e-4)
+"""Δγ of claim A16."""
+
+DENSE = 1024
+"""Most grains of which all eigenvectors are computed."""
+
+COMPRESSED = 256
+"""Most grains that are compressed with friction."""
+
+
+class Attempts:
+    """Calls what may fail: its sentence is kept, and something else stands in its place."""
+
+    def __init__(self):
+        self.sentences: list[str] = []
+
+    def __call__(self, instead, probe: Callable, *arguments):
+        """What the probe returns, or `instead`."""
+        try:
+            return probe(*arguments)
+        except SAMPLE_ERRORS as error:
+            self.sentences.append(f"{probe.__name__}: {error}")
+            return instead
+
+
+def probes_block(packings: Block, law: ContactLaw, protocol: Protocol) -> Block:
+    """Every probe of every packing; a packing without balance is a row without numbers."""
+    sentences: dict[str, str] = {}
+
+    def sample(number: int) -> dict[str, object]:
+        packing, jammed = jammed_packing(packings, number, interaction(law))
+        attempt = Attempts()
+        probed = probes(packing, law, protocol, attempt) if jammed else unjammed(packing, law)
+        if attempt.sentences:
+            sentences[str(seed_of(packings, number))] = "; ".join(attempt.sentences)
+        return {"probe_strain": STRAINS, "converged": True} | probed
+
+    parts = {"rattlers": protocol.rattlers, "step_strain": protocol.step_strain}
+    config = {"law": asdict(law)} | {name: asdict(part) for name, part in parts.items()}
+    block = response_block(packings, "probes", config, law, sample)
+    failures = block.attributes["failures"] | sentences
+    return Block(block.variables, block.attributes | {"failures": failures})
+
+
+def unjammed(packing: Packing, law: ContactLaw) -> dict[str, object]:
+    """The row of a packing that is not jammed."""
+    row = {"g_forward_by_strain": np.zeros(len(STRAINS))}
+    if packing.n <= DENSE:
+        row |= {"g_translational": 0.0}
+    if law.frictional and packing.n <= COMPRESSED:
+        row |= {"complex_pairs_frictional": 0, "jammed_frictional": 0}
+    return row
+
+
+def probes(
+    packing: Packing, law: ContactLaw, protocol: Protocol, attempt: Attempts
+) -> dict[str, object]:
+    """The row of a jammed packing; what failed is NaN and stands in `attempt.sentences`."""
+    rule, threshold = interaction(law), protocol.rattlers.largest(law)
+    row = {
+        "g_forward_by_strain": [
+            attempt(np.nan, forward_rigidity, packing, rule, step, threshold)
+            for step in _steps(protocol.step_strain)
+        ],
+        "hessian_difference": attempt(np.nan, hessian_difference, packing, rule, "tangent"),
+        "hessian_printed_difference": attempt(np.nan, hessian_difference, packing, rule, "printed"),
+    }
+    if packing.n <= DENSE:
+        row["g_translational"] = attempt(np.nan, translational_rigidity, packing, rule, threshold)
+    return row | _frictional(packing, law, protocol.step_strain, attempt)
+
+
+def _steps(step: StepStrain) -> list[StepStrain]:
+    return [replace(step, strain=strain) for strain in STRAINS]
+
+
+def _frictional(
+    packing: Packing, law: ContactLaw, step: StepStrain, attempt: Attempts
+) -> dict[str, object]:
+    """The probes of a packing whose grains have velocities and springs."""
+    if not law.frictional:
+        return {}
+    rule = interaction(law)
+    orders = attempt((np.nan, np.nan), step_orders, packing, rule, Dashpot(step.damping))
+    row = dict(zip(("verlet_order_position", "verlet_order_velocity"), orders, strict=True))
+    if packing.n > COMPRESSED:
+        return row
+    names = ("complex_pairs_frictional", "jammed_frictional")
+    found = attempt((np.nan, np.nan), compressed_pairs, packing, rule, step.force_tolerance)
+    return row | dict(zip(names, found, strict=True))
+
+
+def translational_rigidity(packing: Packing, rule: Interaction, threshold: int) -> float:
+    """g where the modes with ψ^T > 1/2 alone respond."""
+    by_mode = ModeRigidity(packing, rule, threshold)
+    found = spectrum(packing, rule, threshold, forces=by_mode.forces)
+    translational = found.psi_rotational < 0.5
+    return by_mode.g_affine + float(by_mode.contributions(found)[translational].sum())
+
+
+def hessian_difference(packing: Packing, rule: Interaction, stiffness: str) -> float:
+    """max|H − J| / max|J| over the entries."""
+    contacts = find_contacts(packing)
+    matrix = jacobian(packing, contacts, rule)
+    difference = effective_hessian(packing, contacts, rule, stiffness) - matrix
+    return float(abs(difference).max() / abs(matrix).max())
+
+
+def compressed_pairs(packing: Packing, rule: Interaction, tolerance: float) -> tuple[int, bool]:
+    """Complex pairs of the packing compressed anew with friction, and whether it is jammed."""
+    found = frictional_compression(packing, rule, tolerance)
+    return (complex_pairs(found.packing, rule) if found.jammed else 0), found.jammed

@@ -1,0 +1,90 @@
+"""Samples as rows of a block: a failed one is a row without numbers, not the end of its block."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable
+
+import numpy as np
+
+from grainmodes.dataset import VARIABLES
+from grainmodes.dataset.files import Block, BlockError
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.runtime.provenance import code_version
+
+SAMPLE_ERRORS = (ArithmeticError, ValueError, np.linalg.LinAlgError, MemoryError)
+"""What a sample may run into; anything else is a mistake in the code and stops the job."""
+
+FILL = {"f8": np.nan, "i8": 0, "i4": -1, "i1": 0}
+"""Value of a number that does not exist, by type."""
+
+
+def block_of(
+    seeds: Iterable[int],
+    sample: Callable[[int], dict[str, object]],
+    known_failures: dict[str, str],
+    attributes: dict[str, object],
+) -> Block:
+    """Compute a row for every seed and stack them.
+
+    Args:
+        seeds: one row each, in this order.
+        sample: row number → values by name; raises one of `SAMPLE_ERRORS` where it fails, or adds
+            why under "failure" where it has values all the same.
+        known_failures: seed → sentence of samples that failed in an earlier stage.
+        attributes: what to write beside the code version and the failures.
+    """
+    seeds, failures, rows = list(seeds), dict(known_failures), []
+    for number, seed in enumerate(seeds):
+        row: dict[str, object] = {}
+        if str(seed) not in failures:
+            try:
+                row = sample(number)
+            except SAMPLE_ERRORS as error:
+                failures[str(seed)] = f"{type(error).__name__}: {error}"
+        if "failure" in row:
+            failures[str(seed)] = row.pop("failure")
+        rows.append(row)
+    variables = {"seed": np.array(seeds)} | _stacked(rows)
+    described = {"code_version": code_version(), "failures": failures}
+    return Block(variables, attributes | described)
+
+
+def response_block(packings: Block, stage: str, config: dict, law: ContactLaw, sample) -> Block:
+    """The block of an observable of `packings`, which carries their parameters along."""
+    absent = [name for name in ("n", "phi") if name not in packings.attributes]
+    if absent:
+        raise BlockError(f"the packings have no attribute {' and no '.join(absent)}")
+    point = {name: packings.attributes[name] for name in ("n", "phi")} | {"kt": law.kt}
+    attributes = described(stage, attribute(packings, "config") | config, **point)
+    failures = attribute(packings, "failures")
+    return block_of(packings.variables["seed"], sample, failures, attributes)
+
+
+def described(stage: str, config: dict, **point: float) -> dict[str, object]:
+    """The attributes of a block of a stage."""
+    return {"title": f"grainmodes: {stage}", "stage": stage, "config": config} | point
+
+
+def _stacked(rows: list[dict[str, object]]) -> dict[str, np.ndarray]:
+    """Arrays over all rows; shorter rows, and rows without the name, are filled up."""
+    names = list(dict.fromkeys(name for row in rows for name in row)) or ["converged"]
+    return {name: _column(name, [row.get(name) for row in rows]) for name in names}
+
+
+def _column(name: str, values: list[object]) -> np.ndarray:
+    dtype = VARIABLES[name].dtype
+    arrays = [None if value is None else np.asarray(value, dtype) for value in values]
+    present = [array.shape for array in arrays if array is not None]
+    shape = tuple(max(lengths) for lengths in zip(*present, strict=True))
+    column = np.full((len(values), *shape), FILL[dtype], dtype)
+    for row, array in enumerate(arrays):
+        if array is not None:
+            column[(row, *(slice(length) for length in array.shape))] = array
+    return column
+
+
+def attribute(block: Block, name: str) -> dict:
+    """An attribute that is a dictionary: as made, or as the JSON text that a file holds."""
+    value = block.attributes.get(name, {})
+    return json.loads(value) if isinstance(value, str) else dict(value)

@@ -1,0 +1,167 @@
+"""Spectra of a block of packings: of J, of J with the rattlers in it, of the effective Hessian.
+
+| kind        | holds                                                              |
+| ----------- | ------------------------------------------------------------------ |
+| counts      | number of modes in bins of ω                                       |
+| bands       | the same, with ψ^R and p averaged over each bin, and their errors  |
+| eigenvalues | every eigenvalue                                                   |
+| modes       | every eigenvalue with ψ^R and p, and g as a sum over the modes     |
+
+The bins depend on the point alone (`binning.fixed_edges`): samples can be added up. Each row
+says by which method it was computed, and with which factorisation.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+
+import numpy as np
+
+from grainmodes.dataset.files import Block
+from grainmodes.kernels.laws import interaction
+from grainmodes.packing.hessian import effective_hessian
+from grainmodes.packing.state import backbone, find_contacts
+from grainmodes.parameters.factors import FACTORISATIONS
+from grainmodes.parameters.law import ContactLaw, Rattlers
+from grainmodes.parameters.spectra import BINNED, SPECTRUM_METHODS, SpectrumChoices
+from grainmodes.response.mode_sum import ModeRigidity
+from grainmodes.spectrum import Bands, Problem, Spectrum, band_averages, full_spectrum, problem
+from grainmodes.stages.rows import response_block
+from grainmodes.stages.samples import jammed_packing
+from grainmodes.statistics.binning import fixed_edges
+
+
+def spectrum_block(
+    packings: Block,
+    law: ContactLaw,
+    rattlers: Rattlers,
+    kind: str,
+    choices: SpectrumChoices,
+    processes: int = 1,
+) -> Block:
+    """The spectrum of every packing without its rattlers; `processes` share its windows."""
+    rule, threshold = interaction(law), rattlers.largest(law)
+    edges = fixed_edges(law.kt, choices.fineness)
+
+    def sample(number: int) -> dict[str, object]:
+        packing, jammed = jammed_packing(packings, number, rule)
+        if not jammed:
+            return _nothing(kind, edges, _columns(packing, law))
+        of = problem(packing, rule, threshold)
+        if kind in BINNED:
+            return _bins(band_averages(of, edges, kind == "bands", choices), kind)
+        if kind == "eigenvalues" or not of.symmetric:
+            found = full_spectrum(of, kind == "modes", None, choices, processes)
+            return _modes(found, _columns(packing, law), kind)
+        by_mode = ModeRigidity(packing, rule, threshold)
+        found = full_spectrum(of, True, by_mode.forces, choices, processes)
+        shares = by_mode.contributions(found)
+        return _modes(found, _columns(packing, law), kind) | {
+            "g_mode_sum": by_mode.g_affine + float(shares.sum())
+        }
+
+    return response_block(packings, "spectrum", _config(law, rattlers, kind, choices), law, sample)
+
+
+def rattlers_block(
+    packings: Block, law: ContactLaw, kind: str, choices: SpectrumChoices, processes: int = 1
+) -> Block:
+    """The spectrum of every packing with its rattlers left in J: A, App. E."""
+    rule = interaction(law)
+
+    def sample(number: int) -> dict[str, object]:
+        packing, _ = jammed_packing(packings, number, rule)
+        of = problem(packing, rule, keep_rattlers=True)
+        found = full_spectrum(of, kind == "modes", None, choices, processes)
+        row = _modes(found, _columns(packing, law), kind)
+        kept = ("eigenvalue", "psi_rotational", "participation_ratio", "mode_count")
+        renamed = {f"{name}_rattlers": row[name] for name in kept if name in row}
+        return renamed | {"converged": True}
+
+    config = _config(law, None, kind, choices)
+    return response_block(packings, "spectrum_rattlers", config, law, sample)
+
+
+def hessian_block(
+    packings: Block, law: ContactLaw, rattlers: Rattlers, choices: SpectrumChoices
+) -> Block:
+    """Modes of the effective Hessian in bins, tangent stiffnesses and printed ones: A, (H4)."""
+    rule, threshold = interaction(law), rattlers.largest(law)
+    edges = fixed_edges(law.kt, choices.fineness)
+
+    def sample(number: int) -> dict[str, object]:
+        packing, jammed = jammed_packing(packings, number, rule)
+        row: dict[str, object] = {"bin_edge": edges, "converged": True}
+        grains = backbone(packing, threshold)
+        for stiffness, name in (("tangent", "hessian"), ("printed", "hessian_printed")):
+            count = np.zeros(len(edges) - 1, dtype=int)
+            if jammed:
+                matrix = effective_hessian(grains, find_contacts(grains), rule, stiffness)
+                of = Problem(matrix, matrix.shape[0] // grains.n, symmetric=True)
+                count = band_averages(of, edges, False, choices).count
+            row[f"bin_count_{name}"] = count
+        return row
+
+    config = _config(law, rattlers, "counts", choices)
+    return response_block(packings, "spectrum_hessian", config, law, sample)
+
+
+def _config(
+    law: ContactLaw, rattlers: Rattlers | None, kind: str, choices: SpectrumChoices
+) -> dict:
+    kept = {} if rattlers is None else {"rattlers": asdict(rattlers)}
+    return {"law": asdict(law), "spectrum": kind, "spectrum_choices": asdict(choices)} | kept
+
+
+def _columns(packing, law: ContactLaw) -> int:
+    return packing.n * (3 if law.frictional else 2)
+
+
+def _how(method: str, factorisation: str) -> dict[str, object]:
+    return {
+        "spectrum_method": SPECTRUM_METHODS.index(method),
+        "factorisation": 0 if factorisation == "none" else FACTORISATIONS.index(factorisation),
+        "converged": True,
+    }
+
+
+def _modes(found: Spectrum, columns: int, kind: str) -> dict[str, object]:
+    """A row of eigenvalues, with imaginary parts only where J is not symmetric."""
+    values = found.eigenvalue
+    row = {"eigenvalue": _padded(values.real, columns), "mode_count": len(values)}
+    if np.iscomplexobj(values):
+        row["eigenvalue_imaginary"] = _padded(values.imag, columns)
+    if kind == "modes":
+        row["psi_rotational"] = _padded(found.psi_rotational, columns)
+        row["participation_ratio"] = _padded(found.participation_ratio, columns)
+        row["residual"] = found.residual
+    return row | _how(found.method, found.factorisation)
+
+
+def _bins(found: Bands, kind: str) -> dict[str, object]:
+    row = {
+        "bin_edge": found.edge,
+        "bin_count": found.count,
+        "modes_below": found.below,
+        "mode_count": found.modes,
+    }
+    if kind == "bands":
+        for name in ("psi_rotational", "participation_ratio"):
+            row[f"bin_{name}"] = getattr(found, name)
+            row[f"bin_{name}_error"] = getattr(found, f"{name}_error")
+    return row | _how(found.method, found.factorisation)
+
+
+def _nothing(kind: str, edges: np.ndarray, columns: int) -> dict[str, object]:
+    """The row of a packing that is not jammed: it has no modes."""
+    none = np.zeros(0)
+    if kind not in BINNED:
+        row = _modes(Spectrum(none, none, none, 0.0, method="auto"), columns, kind)
+        return row | ({"g_mode_sum": 0.0} if kind == "modes" else {})
+    bins, empty = len(edges) - 1, np.full(len(edges) - 1, np.nan)
+    nothing = Bands(edges, np.zeros(bins, int), 0, 0, empty, empty, empty, empty, method="auto")
+    return _bins(nothing, kind)
+
+
+def _padded(values: np.ndarray, length: int) -> np.ndarray:
+    return np.concatenate([values, np.full(length - len(values), np.nan)])

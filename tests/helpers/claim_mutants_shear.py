@@ -1,0 +1,91 @@
+"""Changes of `claim_fixtures_shear.ensemble()`, each of which one claim of paper B fails."""
+
+import numpy as np
+
+import claim_fixtures_shear
+
+
+def theory_off(ensemble):
+    """Every other step is 5 % longer, those between 5 % shorter: of their mean nothing is seen."""
+    step = np.diff(claim_fixtures_shear.strains())
+    sign = np.where(np.arange(len(step)) % 2, 1.0, -1.0)
+    off = np.concatenate([[0.0], np.cumsum(0.3 * 0.05 * sign * step)])
+    claim_fixtures_shear.add_stress(ensemble, off)
+
+
+def trend_before_events(ensemble):
+    """λ_min falls to nothing as the root of γ_c - γ, over the steps before every event."""
+    strain = ensemble["curve_strain"]
+    for critical in claim_fixtures_shear.EVENTS:
+        left = (critical + 0.5 * claim_fixtures_shear.SMALLEST - strain) / (
+            2.0 * claim_fixtures_shear.STEP
+        )
+        near = (left > 0.0) & (left < 1.0)
+        lowest = ensemble["curve_lowest_eigenvalue"]
+        ensemble["curve_lowest_eigenvalue"] = lowest.where(~near, lowest * np.sqrt(abs(left)))
+
+
+def singular_rigidity(ensemble):
+    """g gets a term of a few per cent at the last state of an approach; σ goes with it."""
+    strain, half = claim_fixtures_shear.strains(), 0.5 * claim_fixtures_shear.SMALLEST
+    term = np.zeros(len(strain))
+    for critical in claim_fixtures_shear.EVENTS:
+        left = critical + half - strain
+        near = (left > 0.0) & (left < 3.0 * claim_fixtures_shear.STEP)
+        term[near] -= 0.02 * np.sqrt(half / left[near])
+    for name in ("curve_g_xy", "curve_g_yx"):
+        ensemble[name].loc[claim_fixtures_shear.PLACE] += term
+    rise = np.concatenate([[0.0], np.cumsum(term[:-1] * np.diff(strain))])
+    claim_fixtures_shear.add_stress(ensemble, rise)
+
+
+def skewed(ensemble):
+    ensemble["event_asymmetry_after"] = ensemble["event_asymmetry_after"] + 0.003
+
+
+def softer_in_changes(ensemble):
+    """σ falls a little in every change, too little for a figure of σ."""
+    strain = claim_fixtures_shear.strains()
+    starts = strain[np.searchsorted(strain, claim_fixtures_shear.CHANGES)]
+    drops = (strain[:, None] > starts).sum(axis=1)
+    claim_fixtures_shear.add_stress(ensemble, -1.2e-4 * drops)
+
+
+def no_contact_changes(ensemble):
+    ensemble["event_opened"] = 0.0 * ensemble["event_opened"]
+
+
+def other_without_brackets(ensemble):
+    ensemble["unbracketed_stress"] = 1.05 * ensemble["unbracketed_stress"]
+
+
+def wandering(ensemble):
+    """γ_c of every bracket another event's."""
+    ensemble["bracket_strain_after"] = ensemble["bracket_strain_after"] + 1e-5 * np.arange(7)
+
+
+def turning_as_one(ensemble):
+    ensemble["event_quadrupole"] = 0.1 * ensemble["event_quadrupole"]
+
+
+DOCTORED = {
+    "B1": theory_off,
+    "B2": other_without_brackets,
+    "B3": trend_before_events,
+    "B4": singular_rigidity,
+    "B5": wandering,
+    "B6": skewed,
+    "B7": turning_as_one,
+    "B8": softer_in_changes,
+    "B9": no_contact_changes,
+}
+"""Claims that fall alone; B10 says of harmonic grains what A1 says, and falls with it."""
+
+
+def no_jump(ensemble):
+    strain = ensemble["curve_strain"]
+    ensemble["curve_lowest_eigenvalue"] = 0.2 - 0.1 * strain
+
+
+SECOND = {"B3": no_jump}
+"""Claims that say two things, doctored in the second."""

@@ -1,0 +1,77 @@
+"""The unstable state that is released in tests: the sheared reference file, its fastest pair."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import scipy.linalg
+
+from example_packings import SHEARED, reference, smoothed_coulomb
+from grainmodes.dataset.files import Block
+from grainmodes.kernels.laws import Interaction, interaction
+from grainmodes.packing.jacobian import jacobian
+from grainmodes.packing.state import find_contacts
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.release import Release
+from grainmodes.protocols.release.run import Run
+from grainmodes.protocols.shear.unstable import Unstable
+from grainmodes.response.stability import INERTIA
+from grainmodes.stages.rows import block_of
+
+SHORT = Release(duration=18.0, least_time=0.0, records=600, spectra=0)
+"""Long enough for ten e-folds of the fastest pair from its kick on; ends before contacts change."""
+
+
+@cache
+def state() -> tuple[Unstable, ContactLaw, Interaction]:
+    """N = 50, μ = 10, γ = 0.02: ω = 1.0118 + 0.0017i, one of eight pairs."""
+    data, packing = reference(SHEARED)
+    law = smoothed_coulomb(data)
+    rule = interaction(law)
+    inertia = (packing.mass[:, None] * INERTIA).ravel()
+    matrix = jacobian(packing, find_contacts(packing), rule).toarray() / inertia[:, None]
+    values, vectors = scipy.linalg.eig(matrix)
+    fastest = np.argmax(np.sqrt(values).imag)
+    turning = replace(packing, rotation=np.zeros(packing.n))
+    return Unstable(turning, values[fastest], vectors[:, fastest].reshape(-1, 3)), law, rule
+
+
+def released(choices: Release = SHORT, drag: float = 0.0) -> Run:
+    """A whole release of this state."""
+    start, _, rule = state()
+    run = Run.begin(start, rule, choices, drag)
+    while not run.done:
+        run.advance()
+    return run
+
+
+def series(run: Run, name: str) -> np.ndarray:
+    """One quantity of all records."""
+    return np.array([getattr(record, name) for record in run.records])
+
+
+def pairs_block() -> Block:
+    """A block as the stage `pairs` leaves it: this state, and a sample that met none."""
+    start, law, _ = state()
+    packing, mode = start.packing, start.mode
+    row = {
+        "converged": True,
+        "unstable_found": 1,
+        "unstable_strain": packing.strain,
+        "unstable_fraction": packing.fraction.T,
+        "unstable_rotation": packing.rotation,
+        "unstable_contact_i": packing.history.i,
+        "unstable_contact_j": packing.history.j,
+        "unstable_slip": packing.history.tangential_displacement,
+        "unstable_eigenvalue_real": start.eigenvalue.real,
+        "unstable_eigenvalue_imag": start.eigenvalue.imag,
+        "unstable_mode_real": mode.real,
+        "unstable_mode_imag": mode.imag,
+        **{name: getattr(packing, name) for name in ("diameter", "mass", "box_length")},
+    }
+    point = {"n": packing.n, "phi": round(packing.phi, 12), "kt": law.kt, "stage": "pairs"}
+    return block_of(
+        range(2), [row, {"converged": True, "unstable_found": 0}].__getitem__, {}, point
+    )

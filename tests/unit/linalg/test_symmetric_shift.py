@@ -1,0 +1,180 @@
+"""Counts and solutions of J − σ against exact inertia, dense spectra, and each other."""
+
+import numpy as np
+import pytest
+import scipy.sparse as sparse
+
+import exact
+from example_packings import BACKENDS, MINIMAL, elastic, quenched, reference
+from grainmodes.linalg import factorisation
+from grainmodes.linalg.factorisation import ZeroPivotError
+from grainmodes.linalg.symmetric_shift import SymmetricShift
+from grainmodes.spectrum import dense, problem
+
+KAPPAS = (1e-10, 1e-8, 1e-4, 1.0, 10.0)
+EDGES = np.geomspace(1e-6, 3.0, 160) ** 2
+"""Shifts from ω t_0 = 1e-6 to 3."""
+
+
+def interleaved(problem) -> np.ndarray:
+    """The shifts of `EDGES` and as many within the rotational and translational bands."""
+    values = dense.eigenvalues(problem)
+    inside = np.quantile(values[values > 1e-13], np.linspace(0.001, 0.999, 80))
+    return np.concatenate([EDGES, 0.99 * inside])
+
+
+@pytest.mark.parametrize("kt", [1e-10, 1e-4, 10.0])
+@pytest.mark.parametrize("rank", [2, 10])
+def test_counts_change_where_the_exact_ones_do(kt, rank):
+    """To 1e-13 of an eigenvalue, however small: at k_T = 1e-10 the dense one is good to 1e-6."""
+    of = problem(reference(MINIMAL[0])[1], elastic(MINIMAL[0], kt))
+    shift, matrix = SymmetricShift(of.matrix), of.matrix.toarray()
+    low, high = bracket(shift, dense.eigenvalues(of)[rank])
+    below = shift.to(low).count
+    assert below + 1 == shift.to(high).count
+    assert exact.count_below(matrix, low) == below
+    assert exact.count_below(matrix, high) == below + 1
+
+
+def bracket(shift: SymmetricShift, value: float) -> tuple[float, float]:
+    """An interval of relative width 3e-13 around an eigenvalue near `value`, by counts."""
+    low, high = value * (1 - 1e-4), value * (1 + 1e-4)
+    below = shift.to(low).count
+    while high - low > 1e-13 * high:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if shift.to(middle).count == below else (low, middle)
+    return low * (1 - 1e-13), high * (1 + 1e-13)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("phi", [0.845, 0.90])
+@pytest.mark.parametrize("kt", KAPPAS)
+def test_counts_equal_the_dense_ones_at_every_edge(phi, kt, backend):
+    compare_with_dense(256, phi, kt, backend)
+
+
+def compare_with_dense(n: int, phi: float, kt: float, backend: str) -> None:
+    """Counts without rattlers and with them."""
+    packing = quenched(n, phi)
+    for keep in (False, True):
+        of = problem(packing, elastic("hertz", kt), keep_rattlers=keep)
+        shift, values = SymmetricShift(of.matrix, backend), dense.eigenvalues(of)
+        edges = interleaved(of)
+        found = [shift.to(edge).count for edge in edges]
+        np.testing.assert_array_equal(found, np.searchsorted(values, edges))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("phi", [0.845, 0.90])
+@pytest.mark.parametrize("kt", KAPPAS)
+def test_counts_equal_the_dense_ones_for_a_thousand_grains(phi, kt, backend):
+    compare_with_dense(1024, phi, kt, backend)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("kt", [1e-10, 1.0])
+def test_solutions_solve(kt, backend):
+    of = problem(quenched(256, 0.90), elastic("hertz", kt))
+    shift = SymmetricShift(of.matrix, backend).to(0.3)
+    right = np.random.default_rng(0).standard_normal((of.size, 5))
+    shifted = of.matrix - 0.3 * sparse.eye_array(of.size)
+    np.testing.assert_allclose(shifted @ shift.solve(right), right, atol=1e-9)
+    np.testing.assert_allclose(shift.solve(right[:, 0]), shift.solve(right)[:, 0], rtol=1e-9)
+
+
+@pytest.mark.skipif("pardiso" not in BACKENDS, reason="PARDISO is not installed")
+def test_factorisations_agree():
+    of = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
+    one, other = (SymmetricShift(of.matrix, name) for name in ("superlu", "pardiso"))
+    assert (one.name, other.name) == ("superlu", "pardiso")
+    assert [one.to(e).count for e in EDGES] == [other.to(e).count for e in EDGES]
+    right = np.random.default_rng(1).standard_normal(of.size)
+    np.testing.assert_allclose(one.to(0.3).solve(right), other.to(0.3).solve(right), rtol=1e-8)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_two_factorisations_live_side_by_side(backend):
+    rule = elastic("hertz", 1e-4)
+    matrices = [problem(quenched(n, 0.90), rule).matrix for n in (64, 256)]
+    alone = [SymmetricShift(matrix, backend).to(0.3).count for matrix in matrices]
+    shifts = [SymmetricShift(matrix, backend).to(0.3) for matrix in matrices]
+    right = np.ones(shifts[0].size)
+    assert [shift.count for shift in shifts] == alone
+    expected = np.linalg.solve(matrices[0].toarray() - 0.3 * np.eye(len(right)), right)
+    np.testing.assert_allclose(shifts[0].solve(right), expected, rtol=1e-8)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_counts_are_right_where_a_leading_part_is_singular(backend):
+    of = problem(quenched(128, 0.86), elastic("hertz", 1.0))
+    values, shift = dense.eigenvalues(of), of.shift("superlu")
+    order = shift.to(0.5)._factors._order
+    leading = of.matrix[order][:, order].toarray()
+    shift = of.shift(backend)
+    for size in (1, 2, 3, 5, 9, 17):
+        for sigma in np.linalg.eigvalsh(leading[:size, :size]):
+            if np.abs(values / sigma - 1.0).min() > 1e-6:
+                assert shift.to(sigma).count == np.searchsorted(values, sigma)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_empty_rows_are_zero_modes(backend):
+    matrix = sparse.csc_array(np.diag([0.0, 1.0, 0.0, 4.0]))
+    shift = SymmetricShift(matrix, backend)
+    assert [shift.to(sigma).count for sigma in (-1e-3, 1e-12, 2.0, 5.0)] == [0, 2, 3, 4]
+
+
+def test_one_shift_per_row_counts_a_diagonal_exactly():
+    values = np.array([1.0, 2.0, 3.0, 4.0])
+    shift = SymmetricShift(sparse.csc_array(np.diag(values)))
+    assert shift.to(np.array([1.5, 1.5, 3.5, 3.5])).count == 2
+
+
+def test_a_shift_on_an_eigenvalue_is_nudged_upwards():
+    shift = SymmetricShift(sparse.csc_array(np.diag([1.0, 2.0, 3.0])))
+    assert shift.to(2.0).count == 2
+
+
+def test_a_singular_matrix_at_zero_is_refused():
+    with pytest.raises(ZeroPivotError, match="singular at sigma = 0"):
+        SymmetricShift(sparse.csc_array(np.diag([0.0, 1.0]))).to(0.0)
+
+
+def test_an_unknown_factorisation_is_refused():
+    with pytest.raises(ValueError, match="allowed are auto, superlu, pardiso"):
+        SymmetricShift(sparse.csc_array(np.eye(2)), "cholesky")
+
+
+@pytest.mark.skipif("pardiso" not in BACKENDS, reason="needs pypardiso")
+@pytest.mark.parametrize(("code", "kind"), [(-2, MemoryError), (-4, ZeroPivotError)])
+def test_what_pardiso_runs_into_fails_a_sample_and_not_its_block(code, kind, monkeypatch):
+    from pypardiso.pardiso_wrapper import PyPardisoError
+
+    def fail(*arguments):
+        raise PyPardisoError(code)
+
+    factors = factorisation.factorisation(sparse.csc_array(np.eye(3)), "pardiso")
+    with monkeypatch.context() as patch:
+        patch.setattr(factors._solver, "_call_pardiso", fail)
+        with pytest.raises(kind, match=f"error code {code}"):
+            factors.refill(np.ones(3))
+
+
+@pytest.mark.skipif("pardiso" not in BACKENDS, reason="needs pypardiso")
+def test_mkl_is_looked_for_once(monkeypatch):
+    from pypardiso import pardiso_wrapper
+
+    monkeypatch.delenv("PYPARDISO_MKL_RT", raising=False)
+    factorisation._locate_mkl.cache_clear()
+    pattern = sparse.csc_array(np.eye(3))
+    factorisation.factorisation(pattern, "pardiso")
+    monkeypatch.delattr(pardiso_wrapper, "find_library")
+    factorisation.factorisation(pattern, "pardiso")
+
+
+def test_pardiso_must_be_installed_to_be_asked_for(monkeypatch):
+    monkeypatch.setattr(factorisation, "find_spec", lambda name: None)
+    assert factorisation.chosen("auto", 10**6) == "superlu"
+    with pytest.raises(ValueError, match="is not installed"):
+        factorisation.chosen("pardiso", 10)

@@ -1,0 +1,154 @@
+"""What a scene does not call for is neither computed nor stored."""
+
+import re
+
+import numpy as np
+import pytest
+import scipy.linalg
+
+from example_packings import BACKENDS, quenched
+from grainmodes.kernels.dynamics import integrate
+from grainmodes.kernels.fire import fire
+from grainmodes.kernels.laws import Hertz, interaction
+from grainmodes.kernels.neighbours import find_neighbours
+from grainmodes.kernels.repulsion import add_forces
+from grainmodes.linalg import pinned_factor
+from grainmodes.packing import forces, jacobian
+from grainmodes.packing.contacts import Contacts, History
+from grainmodes.packing.forces import net_force
+from grainmodes.packing.hessian import effective_hessian
+from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.parameters.compression import Compression
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.spectra import SpectrumChoices
+from grainmodes.parameters.strain import Shear, StepStrain
+from grainmodes.protocols.compression.trajectory import advanced, balanced, placed
+from grainmodes.protocols.shear.run import Walk
+from grainmodes.protocols.shear.step_strain import step_strain
+from grainmodes.relaxation import newton
+from grainmodes.response.moduli import rigidity
+from grainmodes.spectrum import band_averages, dense, full_spectrum, problem, spectrum_slicing
+
+NO_FRICTION = interaction(ContactLaw())
+FRICTION = interaction(ContactLaw(kt=1e-2))
+EDGES = np.array([1e-6, 0.1, 0.5, 1.0, 3.0])
+PLACES = {"x", "y", "vx", "vy", "fx", "fy", "origin_x", "origin_y", "diameter", "inverse_mass"}
+"""Arrays of FIRE over the grains."""
+
+PAIRS = {"left", "right", "reach"}
+"""Arrays of its inner loop over the pairs."""
+
+
+def refuse(monkeypatch, *places) -> None:
+    """Let every attribute (owner, name) raise when it is called."""
+
+    def refused(*arguments, **names):
+        raise AssertionError("not called for")
+
+    for owner, name in places:
+        monkeypatch.setattr(owner, name, refused)
+
+
+def arrays_of(kernel) -> set[str]:
+    """Names of the arrays in the compiled code of a kernel, whatever types it was compiled for."""
+    code = "".join(str(each.type_annotation) for each in kernel.overloads.values())
+    made_or_passed = r"#\s+(\w+)(?:\.\d+)? = .* :: (?:\(.*\) -> )?array\("
+    return set(re.findall(made_or_passed, code))
+
+
+def test_fire_holds_no_rotation_torque_or_history():
+    advanced(placed(16, 0, Hertz(1.0), Compression()), 0.8, Hertz(1.0), Compression())
+    assert arrays_of(fire) == PLACES
+    laws = {str(types[6]) for types in fire.overloads}
+    assert laws <= {"Hertz(float64 x 1)", "Harmonic(float64 x 1)"}
+
+
+def test_frictionless_forces_read_positions_and_pairs_and_write_forces():
+    packing, force = quenched(16, 0.9), np.zeros((2, 16))
+    state = *packing.fraction, packing.diameter, packing.box_length, 0.0
+    pairs = find_neighbours(*state, 0.2)
+    add_forces(*packing.fraction, packing.box_length, None, pairs, Hertz(1.0), *force)
+    assert arrays_of(add_forces) == {"x", "y", "force_x", "force_y"} | PAIRS
+
+
+def test_the_look_into_compiled_code_sees_a_history():
+    walk = Walk.start(quenched(16, 0.9), FRICTION, Shear(1e-4, relaxation="damped"))
+    walk.advance()
+    assert "spring" in arrays_of(integrate)
+
+
+TANGENTIAL = (
+    (History, "__init__"),
+    (forces, "contact_forces"),
+    (jacobian, "contact_stiffness"),
+    (newton, "stretched"),
+    (newton, "kept_displacement"),
+)
+
+
+def test_without_friction_nothing_tangential_is_touched(monkeypatch):
+    refuse(monkeypatch, *TANGENTIAL)
+    law, protocol = Hertz(1.0), Compression(phi_step=1e-3)
+    start = advanced(placed(16, 1, law, protocol), 0.9, law, protocol)
+    packing = balanced(start, 0.9, law, protocol).packing
+    assert net_force(packing, find_contacts(packing), NO_FRICTION).shape == (16, 2)
+    assert rigidity(packing, NO_FRICTION).unloaded.displacement.shape[1] == 2
+    assert step_strain(packing, NO_FRICTION, StepStrain()).converged
+    assert problem(packing, NO_FRICTION).k == 2
+    walk = Walk.start(packing, NO_FRICTION, Shear(1e-3))
+    while not walk.done:
+        walk.advance()
+    for state in (packing, walk.now.balance.packing):
+        assert state.rotation is None and state.history is None
+
+
+def test_springs_never_loaded_are_not_stored_and_take_the_symmetric_way(monkeypatch):
+    packing = quenched(36, 0.92)
+    general = ((pinned_factor, "_General"), (scipy.linalg, "eig"), (scipy.linalg, "eigvals"))
+    refuse(monkeypatch, (History, "__init__"), *general)
+    monkeypatch.setattr(Contacts, "displacement", property(None))
+    contacts = find_contacts(packing)
+    assert contacts.tangential_displacement is None
+    assert net_force(packing, contacts, FRICTION).shape == (36, 3)
+    assert np.isfinite(rigidity(packing, FRICTION).loaded.g)
+    of = problem(packing, FRICTION)
+    assert of.symmetric and of.k == 3
+    for modes in (False, True):
+        assert full_spectrum(of, modes).eigenvalue.dtype == float
+    assert effective_hessian(packing, contacts, FRICTION).shape == (108, 108)
+
+
+def test_a_packing_is_its_places_and_sizes():
+    packing = quenched(36, 0.92)
+    assert bytes_of(packing) == 32 * 36
+    assert packing.rotation is None and packing.history is None
+
+
+def bytes_of(packing: Packing) -> int:
+    held = (packing.fraction, packing.diameter, packing.mass)
+    return sum(array.nbytes for array in held)
+
+
+VECTORS = ((dense, "eigenpairs"), (spectrum_slicing, "eigenpairs"), (spectrum_slicing, "nearest"))
+
+
+@pytest.mark.parametrize("rule", [NO_FRICTION, FRICTION], ids=["frictionless", "frictional"])
+@pytest.mark.parametrize("method", ["dense", "counting"])
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_counts_need_no_eigenvector(monkeypatch, rule, method, backend):
+    of, choices = problem(quenched(36, 0.92), rule), SpectrumChoices(method, backend)
+    by_vectors = band_averages(of, EDGES, True, choices).count
+    refuse(monkeypatch, *VECTORS)
+    found = band_averages(of, EDGES, False, choices)
+    np.testing.assert_array_equal(found.count, by_vectors)
+    assert found.psi_rotational is None and found.participation_ratio is None
+    with pytest.raises(AssertionError, match="not called for"):
+        band_averages(of, EDGES, True, choices)
+
+
+def test_eigenvalues_need_no_eigenvector(monkeypatch):
+    of = problem(quenched(36, 0.92), FRICTION)
+    refuse(monkeypatch, *VECTORS)
+    found = full_spectrum(of, modes=False)
+    assert len(found.eigenvalue) == of.size
+    assert found.modes is None and found.psi_rotational is None

@@ -1,0 +1,131 @@
+"""How far a pair may grow before contacts change: against brute force, and against a release."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from grainmodes.packing.state import find_contacts, nonaffine_motion
+from grainmodes.parameters.release import Release
+from grainmodes.protocols.pair_tracking.detection import ByLapack, Seen, seen_by
+from grainmodes.protocols.pair_tracking.linear_range import fastest_with_room, rooms
+from grainmodes.protocols.release.growth import LINEAR
+from grainmodes.protocols.release.outcome import fate_of
+from grainmodes.relaxation.balance import Balance
+from released import released, state
+
+TURN = np.exp(-2j * np.pi * np.arange(60) / 60)
+"""Phases of a turn."""
+
+
+def balance() -> Balance:
+    start, _, rule = state()
+    return Balance.of(start.packing, rule)
+
+
+def motions(of: Balance) -> np.ndarray:
+    """The unstable mode of the state, and some at random."""
+    draws = np.random.default_rng(5).standard_normal((7, 2, of.packing.n, 3))
+    return np.stack([state()[0].mode, *(draws[:, 0] + 1j * draws[:, 1])], axis=2)
+
+
+def keys(packing) -> set[tuple[int, int]]:
+    contacts = find_contacts(packing)
+    return set(zip(contacts.i.tolist(), contacts.j.tolist(), strict=True))
+
+
+def first_change(packing, mode: np.ndarray) -> tuple[float, bool]:
+    """M of the first change, the mode turned through growing circles; whether a contact opened."""
+    before = keys(packing)
+    for size in np.geomspace(1e-8, 1.0, 3000) / np.abs(mode).max():
+        turned = [packing.displaced((size * mode * phase).real[:, :2]) for phase in TURN]
+        if any(keys(one) != before for one in turned):
+            moved = [nonaffine_motion(packing, one)[:, :2] for one in turned]
+            square = np.mean([(of**2).sum(axis=1).mean() for of in moved])
+            return float(square), any(before - keys(one) for one in turned)
+    raise AssertionError("no contact changed")
+
+
+@pytest.mark.parametrize("opens", [True, False])
+def test_the_room_is_where_contacts_change_on_the_way(opens):
+    of = balance() if opens else nearly_closed(balance())
+    modes = motions(of)
+    found = [first_change(of.packing, mode) for mode in np.moveaxis(modes, 2, 0)]
+    np.testing.assert_allclose(rooms(of, modes), [square for square, _ in found], rtol=0.03)
+    assert {opened for _, opened in found} == {opens}
+
+
+def nearly_closed(of: Balance) -> Balance:
+    """The narrowest gap left with 1e-6 d by a grain that is made larger."""
+    i, j = np.tril_indices(of.packing.n, -1)
+    away = of.packing.position[i] - of.packing.position[j]
+    box = of.packing.box_length
+    up = np.rint(away[:, 1] / box)
+    away -= box * np.stack([of.packing.strain * up, up], axis=1)
+    away[:, 0] -= box * np.rint(away[:, 0] / box)
+    gap = np.hypot(*away.T) - 0.5 * (of.packing.diameter[i] + of.packing.diameter[j])
+    gap[gap < 0.0] = np.inf
+    diameter = of.packing.diameter.copy()
+    diameter[i[np.argmin(gap)]] += 2.0 * (gap.min() - 1e-6)
+    return Balance.of(replace(of.packing, diameter=diameter), of.interaction)
+
+
+def test_the_room_is_one_of_a_direction_and_not_of_a_vector():
+    of = balance()
+    modes = motions(of)
+    np.testing.assert_allclose(rooms(of, 1e-7 * np.exp(0.3j) * modes), rooms(of, modes))
+
+
+def test_a_loose_grain_takes_no_room():
+    """A grain that only one contact holds is put down at zero overlap."""
+    of = balance()
+    weakest = np.argmin(of.contacts.overlap)
+    grain = of.contacts.i[weakest]
+    held = np.arange(of.packing.n) != grain
+    shrunk = narrowed(of)
+    assert rooms(shrunk, motions(of)).max() < 1e-15
+    assert rooms(replace(shrunk, held=held), motions(of)).min() > 1e-12
+
+
+def narrowed(of: Balance) -> Balance:
+    """The weakest contact left with an overlap of 1e-9 d by a grain that is made smaller."""
+    weakest = np.argmin(of.contacts.overlap)
+    diameter = of.packing.diameter.copy()
+    diameter[of.contacts.i[weakest]] -= 2.0 * (of.contacts.overlap[weakest] - 1e-9)
+    return Balance.of(replace(of.packing, diameter=diameter), of.interaction)
+
+
+def seen(of: Balance) -> Seen:
+    return seen_by(ByLapack(), of)
+
+
+def test_a_state_next_to_a_change_of_contacts_is_passed_over():
+    wide, narrow = seen(balance()), seen(narrowed(balance()))
+    assert len(narrow.pairs.value) > 0
+    chosen = fastest_with_room(wide, 0.0)
+    assert chosen.growth == wide.pairs.growth.max() == wide.pairs.growth[chosen.place]
+    assert chosen.growth == pytest.approx(state()[0].rate)
+    assert chosen.room > LINEAR[1]
+    assert fastest_with_room(narrow, 0.0) is None
+    assert fastest_with_room(wide, chosen.growth) is None
+
+
+def test_of_the_pairs_of_a_state_the_fastest_with_room_is_taken(monkeypatch):
+    of = seen(balance())
+    growth, room = of.pairs.growth, rooms(of.balance, of.motions(np.arange(len(of.pairs.value))))
+    fastest = np.argmax(growth)
+    assert room[fastest] < room.max()
+    monkeypatch.setattr(
+        "grainmodes.protocols.pair_tracking.linear_range.LINEAR", (0.0, room[fastest])
+    )
+    chosen = fastest_with_room(of, 0.0)
+    assert chosen.growth == growth[room > room[fastest]].max()
+    assert chosen.room == room[chosen.place]
+
+
+def test_a_release_changes_its_contacts_where_linear_theory_says():
+    """Within a factor of three of M: it is looked at now and then, and M swings."""
+    start, _, _ = state()
+    expected = rooms(balance(), start.mode[:, :, None])[0]
+    fate = fate_of(released(Release(duration=22.0, least_time=0.0, records=2000, spectra=0)))
+    assert expected / 3.0 < fate.change.square < 3.0 * expected

@@ -1,0 +1,130 @@
+"""Eigenpairs in windows: none missing, none twice, each by its residual and against LAPACK."""
+
+import os
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sparse
+
+import exact
+from example_packings import BACKENDS, MINIMAL, elastic, quenched, reference
+from grainmodes.linalg.symmetric_shift import SymmetricShift
+from grainmodes.parameters.spectra import SpectrumChoices
+from grainmodes.spectrum import dense, full_spectrum, problem, spectrum_slicing
+from grainmodes.spectrum.spectrum_slicing import Window, WindowError
+
+FLOOR = 1e-14
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("kt", [1e-8, 1e-4, 1.0, 10.0])
+def test_windows_hold_every_mode_once(kt, backend):
+    of = problem(quenched(256, 0.90), elastic("hertz", kt))
+    windowed = full_spectrum(of, choices=SpectrumChoices("windows", backend))
+    whole = full_spectrum(of, choices=SpectrumChoices("dense"))
+    assert (windowed.method, windowed.factorisation) == ("windows", backend)
+    assert windowed.residual < 1e-9 * of.bound
+    np.testing.assert_allclose(windowed.eigenvalue, whole.eigenvalue, atol=2e-14)
+    apart = isolated(whole.eigenvalue)
+    assert apart.mean() > 0.6
+    for name in ("psi_rotational", "participation_ratio"):
+        one, other = (getattr(found, name)[apart] for found in (windowed, whole))
+        np.testing.assert_allclose(one, other, atol=1e-7)
+
+
+def isolated(values: np.ndarray) -> np.ndarray:
+    """Vibrations whose direction is well defined for LAPACK."""
+    gaps = np.diff(values, prepend=-np.inf, append=np.inf)
+    nearest = np.minimum(gaps[:-1], gaps[1:])
+    return (nearest > 1e-5 * np.abs(values)) & (nearest > 1e-9 * values.max()) & (values > FLOOR)
+
+
+def test_eigenvectors_of_all_windows_are_orthonormal():
+    of = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
+    shift = SymmetricShift(of.matrix)
+    parts = spectrum_slicing.split(shift, FLOOR, of.bound)
+    vectors = np.hstack([spectrum_slicing.eigenpairs(shift, part).vectors for part in parts])
+    assert vectors.shape == (of.size, of.size - 2)
+    np.testing.assert_allclose(vectors.T @ vectors, np.eye(of.size - 2), atol=1e-9)
+
+
+@pytest.mark.parametrize("kt", [1e-10, 1e-8])
+def test_small_eigenvalues_keep_their_relative_accuracy(kt):
+    """Each lies between exact counts at λ (1 ± 1e-10), where LAPACK is good to 1e-6 at 1e-10."""
+    of = problem(reference(MINIMAL[0])[1], elastic(MINIMAL[0], kt))
+    values = full_spectrum(of, choices=SpectrumChoices("windows")).eigenvalue
+    for rank in (2, 9):
+        bounds = values[rank] * (1 + np.array([-1e-10, 1e-10]))
+        assert [exact.count_below(of.matrix.toarray(), b) for b in bounds] == [rank, rank + 1]
+
+
+def test_windows_do_not_depend_on_the_number_of_processes():
+    of = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
+    choices = SpectrumChoices("windows")
+    one, two = (full_spectrum(of, choices=choices, processes=p) for p in (1, 2))
+    for name in ("eigenvalue", "psi_rotational", "participation_ratio"):
+        np.testing.assert_array_equal(getattr(one, name), getattr(two, name))
+
+
+def test_a_band_beside_a_gap_and_a_lonely_mode():
+    values = np.concatenate([np.linspace(1.0, 1.1, 300), [2.0], np.linspace(50.0, 51.0, 40)])
+    shift = SymmetricShift(sparse.csc_array(np.diag(values)))
+    parts = spectrum_slicing.split(shift, 0.5, 100.0)
+    found = np.concatenate([spectrum_slicing.eigenpairs(shift, part).values for part in parts])
+    np.testing.assert_allclose(found, values, rtol=1e-12)
+
+
+def test_a_degenerate_eigenvalue_is_found_as_often_as_it_is_counted():
+    values = np.concatenate([np.full(12, 1.0), np.linspace(2.0, 3.0, 50)])
+    shift = SymmetricShift(sparse.csc_array(np.diag(values)))
+    parts = spectrum_slicing.split(shift, 0.5, 4.0)
+    found = np.concatenate([spectrum_slicing.eigenpairs(shift, part).values for part in parts])
+    np.testing.assert_allclose(found, values, rtol=1e-12)
+
+
+def test_a_window_that_promises_too_much_is_refused():
+    shift = SymmetricShift(sparse.csc_array(np.diag(np.arange(1.0, 40.0))))
+    with pytest.raises(WindowError, match="where 7 were counted"):
+        spectrum_slicing.eigenpairs(shift, Window(1.5, 1.5 + 1e-13, 7))
+
+
+def test_nearest_are_the_nearest():
+    of = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
+    values = dense.eigenvalues(of)
+    found = spectrum_slicing.nearest(SymmetricShift(of.matrix), 0.31, 10)
+    expected = np.sort(values[np.argsort(np.abs(values - 0.31))[:10]])
+    np.testing.assert_allclose(found.values, expected, rtol=1e-12)
+    residual = of.matrix @ found.vectors - found.vectors * found.values
+    assert np.abs(residual).max() < 1e-10
+
+
+def test_negative_eigenvalues_are_found_too():
+    of = problem(quenched(64, 0.90), elastic("hertz", 1.0))
+    weak = problem(quenched(64, 0.90), elastic("hertz", 1e-4))
+    unstable = replace(of, matrix=(2.0 * weak.matrix - of.matrix).tocsc())
+    forces = np.random.default_rng(0).standard_normal((of.size, 1))
+    windowed, whole = (
+        full_spectrum(unstable, forces=forces, choices=SpectrumChoices(method))
+        for method in ("windows", "dense")
+    )
+    assert np.count_nonzero(whole.eigenvalue < -0.1) > 10
+    np.testing.assert_allclose(windowed.eigenvalue, whole.eigenvalue, atol=1e-13)
+    apart = np.abs(whole.eigenvalue) > 1e-3
+    for name in ("psi_rotational", "participation_ratio"):
+        one, other = (getattr(found, name)[apart] for found in (windowed, whole))
+        np.testing.assert_allclose(one, other, atol=1e-7)
+    np.testing.assert_allclose(
+        np.abs(windowed.projection[apart]), np.abs(whole.projection[apart]), atol=1e-6
+    )
+
+
+def die(values, vectors):
+    os._exit(1)
+
+
+def test_a_process_that_dies_fails_its_sample():
+    of = problem(quenched(64, 0.90), elastic("hertz", 1e-4))
+    parts = spectrum_slicing.split(of.shift(), FLOOR, of.bound)
+    with pytest.raises(MemoryError, match="killed"):
+        spectrum_slicing.measured(of, "superlu", parts, die, processes=2)

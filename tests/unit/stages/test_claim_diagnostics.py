@@ -1,0 +1,204 @@
+"""The probes of single claims, and that one which fails sinks nothing else."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from example_packings import ELASTIC, crowd, elastic, reference
+from grainmodes.cli import main
+from grainmodes.dataset.files import Block, read_block, write_block
+from grainmodes.kernels.damping import Dashpot, Undamped
+from grainmodes.kernels.laws import Hertz
+from grainmodes.packing.jacobian import jacobian
+from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.protocol import Protocol
+from grainmodes.parameters.strain import StepStrain
+from grainmodes.protocols.compression.frictional import frictional_compression, loosened
+from grainmodes.protocols.shear.step_strain import forward_rigidity
+from grainmodes.relaxation.accuracy import step_orders
+from grainmodes.response.mode_sum import ModeRigidity, mode_sum
+from grainmodes.response.moduli import rigidity
+from grainmodes.response.stability import complex_pairs
+from grainmodes.spectrum import spectrum
+from grainmodes.stages import claim_diagnostics
+from grainmodes.stages.rows import block_of
+from grainmodes.stages.samples import packed
+
+SMALL, HERTZ = "hertz_n16_phi0.900_seed1", "hertz_n64_phi0.900_seed1"
+KT = 1.0
+
+
+def block(*packed_packings: Packing) -> Block:
+    """Hertzian packings as a block, like one of stage `packings`."""
+    rows = [packed(p, Hertz(1.0)) | {"converged": True} for p in packed_packings]
+    point = {"n": packed_packings[0].n, "phi": packed_packings[0].phi}
+    return block_of(range(len(rows)), rows.__getitem__, {}, point | {"stage": "packings"})
+
+
+def row(packing: Packing, kt: float, protocol: Protocol | None = None) -> Block:
+    law = ContactLaw("hertz", "elastic", kt)
+    return claim_diagnostics.probes_block(block(packing), law, protocol or Protocol())
+
+
+def loose(packing: Packing) -> Packing:
+    """The packing in so large a box that nothing touches."""
+    return packing.at(0.5)
+
+
+@pytest.mark.parametrize("name", ELASTIC)
+def test_a_forward_step_gives_the_rigidity_of_theory_but_for_its_slope(name):
+    """g(Δγ) = g + g' Δγ/2, with g' from steps to both sides."""
+    packing, law = reference(name)[1], elastic(name, KT)
+    g = rigidity(packing, law).unloaded.g
+    small, ahead, behind = (
+        forward_rigidity(packing, law, StepStrain(strain=strain)) for strain in (1e-6, 1e-5, -1e-5)
+    )
+    half_slope = (ahead - behind) / 2e-5
+    assert small - g == pytest.approx(half_slope * 1e-6, rel=0.02, abs=5e-9 * g)
+
+
+def test_a_forward_step_that_ends_without_balance_says_so():
+    step = StepStrain(strain=1e-5, relaxation="damped", max_steps=40)
+    with pytest.raises(ArithmeticError, match=r"max\|F\| = .*, 40 iterations"):
+        forward_rigidity(reference(SMALL)[1], elastic(SMALL, KT), step)
+
+
+@pytest.mark.parametrize("name", [SMALL, HERTZ])
+def test_translational_modes_give_the_rigidity_of_weak_friction(name):
+    packing = reference(name)[1]
+    for kt, accuracy in ((0.0, 1e-9), (1e-8, 1e-6), (1e-4, 1e-2)):
+        law = elastic(name, kt)
+        found = claim_diagnostics.translational_rigidity(packing, law, 2)
+        assert found == pytest.approx(rigidity(packing, law).unloaded.g, rel=accuracy)
+    strong = elastic(name, 1.0)
+    g = rigidity(packing, strong).unloaded.g
+    assert abs(claim_diagnostics.translational_rigidity(packing, strong, 2) / g - 1) > 1e-2
+
+
+def test_two_halves_of_the_modes_add_up():
+    packing, law = reference(SMALL)[1], elastic(SMALL, KT)
+    found = spectrum(packing, law)
+    half = found.psi_rotational < 0.5
+    by_mode = ModeRigidity(packing, law)
+    shares = by_mode.contributions(spectrum(packing, law, forces=by_mode.forces))
+    whole = mode_sum(packing, law, found)
+    assert 0 < half.sum() < len(half)
+    assert shares.sum() == pytest.approx(whole.g_nonaffine, rel=1e-12)
+    assert by_mode.g_affine == pytest.approx(whole.g_affine, rel=1e-14)
+    translational = by_mode.g_affine + shares[half].sum()
+    assert claim_diagnostics.translational_rigidity(packing, law, 2) == pytest.approx(
+        translational, rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("name", [SMALL, "harmonic_n64_phi0.900_seed1"])
+@pytest.mark.parametrize("kt", [1e-8, 1.0])
+def test_a_step_of_velocity_verlet_is_as_right_as_paper_a_says(name, kt):
+    """Second order in q and first in q̇; second in both where no force depends on velocity."""
+    packing, law = reference(name)[1], elastic(name, kt)
+    orders = step_orders(packing, law, Dashpot(1.0))
+    assert orders.position == pytest.approx(2.0, abs=0.02)
+    assert orders.velocity == pytest.approx(1.0, abs=0.02)
+    assert step_orders(packing, law, Undamped()).velocity == pytest.approx(2.0, abs=0.02)
+
+
+def test_a_loosened_packing_touches_in_one_place():
+    packing = loosened(crowd(71, slip=0.3))
+    assert packing.history is None and packing.rotation is None
+    assert len(find_contacts(replace(packing, box_length=packing.box_length * (1 - 1e-12))).i) == 1
+    assert len(find_contacts(replace(packing, box_length=packing.box_length * (1 + 1e-12))).i) == 0
+
+
+@pytest.mark.parametrize("name", [SMALL, HERTZ])
+def test_compression_with_friction_loads_springs_and_makes_complex_pairs(name):
+    packing, law = reference(name)[1], elastic(name, KT)
+    found = frictional_compression(packing, law, 1e-14)
+    assert found.jammed
+    assert np.abs(find_contacts(found.packing).displacement).max() > 1e-4
+    if name == HERTZ:
+        assert complex_pairs(found.packing, law) > 0
+    unsprung = replace(found.packing, history=None)
+    assert complex_pairs(unsprung, law) == complex_pairs(packing, law) == 0
+
+
+def test_pairs_are_those_of_the_matrix_over_the_masses():
+    packing, law = crowd(72, slip=0.8), elastic("hertz", 1.0)
+    mass = np.repeat(packing.mass, 3) * np.tile([1.0, 1.0, 0.5], packing.n)
+    matrix = jacobian(packing, find_contacts(packing), law).toarray()
+    values = np.linalg.eigvals(np.diag(1 / mass) @ matrix)
+    assert complex_pairs(packing, law) == np.count_nonzero(values.imag > 1e-9) > 0
+    assert complex_pairs(packing, law) != np.count_nonzero(np.linalg.eigvals(matrix).imag > 1e-9)
+
+
+def test_a_state_that_bears_nothing_is_not_jammed():
+    found = frictional_compression(loose(reference(SMALL)[1]), elastic(SMALL, KT), 1e-14)
+    assert not found.jammed and found.packing.n == 0
+
+
+def test_the_row_of_a_jammed_packing():
+    packing = reference(SMALL)[1]
+    found = row(packing, KT)
+    values = {name: array[0] for name, array in found.variables.items()}
+    strains = [1e-6, 1e-5, 1e-4]
+    np.testing.assert_array_equal(values["probe_strain"], strains)
+    steps = [forward_rigidity(packing, elastic(SMALL, KT), StepStrain(strain=x)) for x in strains]
+    np.testing.assert_array_equal(values["g_forward_by_strain"], steps)
+    assert values["hessian_difference"] < 1e-15 < 1.0 < values["hessian_printed_difference"]
+    assert values["jammed_frictional"] == 1 and values["complex_pairs_frictional"] >= 0
+    assert values["converged"] == 1 and found.attributes["failures"] == {}
+    assert found.attributes["stage"] == "probes" and found.attributes["kt"] == KT
+
+
+def test_without_friction_there_is_neither_verlet_nor_compression():
+    found = row(reference(SMALL)[1], 0.0)
+    absent = {"verlet_order_position", "complex_pairs_frictional", "jammed_frictional"}
+    assert not absent & set(found.variables)
+    g = rigidity(reference(SMALL)[1], elastic(SMALL, 0.0)).unloaded.g
+    assert found.variables["g_translational"][0] == pytest.approx(g, rel=1e-9)
+
+
+def test_large_packings_are_spared_dense_matrices(monkeypatch):
+    monkeypatch.setattr(claim_diagnostics, "DENSE", 8)
+    monkeypatch.setattr(claim_diagnostics, "COMPRESSED", 8)
+    found = row(reference(SMALL)[1], KT).variables
+    assert "g_translational" not in found and "complex_pairs_frictional" not in found
+    assert found["verlet_order_position"][0] > 1.9
+
+
+def test_an_unjammed_packing_has_no_rigidity():
+    found = row(loose(reference(SMALL)[1]), KT).variables
+    np.testing.assert_array_equal(found["g_forward_by_strain"], [[0.0, 0.0, 0.0]])
+    for name in ("g_translational", "complex_pairs_frictional", "jammed_frictional"):
+        assert found[name][0] == 0.0
+    assert "hessian_difference" not in found and found["converged"][0] == 1
+
+
+def test_a_probe_that_fails_leaves_its_sentence_and_the_others(monkeypatch):
+    def hopeless(*arguments):
+        raise ArithmeticError("it did not end")
+
+    monkeypatch.setattr(claim_diagnostics, "frictional_compression", hopeless)
+    short = StepStrain(relaxation="damped", max_steps=40)
+    found = row(reference(SMALL)[1], KT, Protocol(step_strain=short))
+    sentence = found.attributes["failures"]["0"]
+    assert sentence.count("forward_rigidity: max|F| =") == 3
+    assert sentence.endswith("compressed_pairs: it did not end")
+    for name in ("g_forward_by_strain", "complex_pairs_frictional", "jammed_frictional"):
+        assert np.isnan(found.variables[name]).all()
+    assert found.variables["g_translational"][0] > 0 and found.variables["converged"][0] == 1
+
+
+def test_the_command_writes_what_the_function_finds(tmp_path):
+    packings = block(reference(SMALL)[1])
+    write_block(tmp_path / "packings.nc", packings)
+    words = ["probes", str(tmp_path / "packings.nc"), "--kt", "0"]
+    rattlers = json.dumps({"protocol": {"rattlers": {"threshold": 1}}})
+    assert main([*words, "--settings", rattlers, "-o", str(tmp_path / "probes.nc")]) == 0
+    written = read_block(tmp_path / "probes.nc")
+    assert json.loads(written.attributes["config"])["rattlers"]["threshold"] == 1
+    found = row(reference(SMALL)[1], 0.0).variables
+    for name in found:
+        np.testing.assert_array_equal(written.variables[name], found[name])

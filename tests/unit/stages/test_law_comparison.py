@@ -1,0 +1,179 @@
+"""J on both sides of Coulomb's threshold, released states, and laws side by side in a block."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from example_packings import LAWS, SHEARED, crowd, keeping, law_name, reference, smoothed_coulomb
+from grainmodes.dataset import VARIABLES
+from grainmodes.dataset.files import Block
+from grainmodes.kernels.laws import interaction
+from grainmodes.packing.forces import forces_on_i, sliding
+from grainmodes.packing.jacobian import jacobian, stiffness_of
+from grainmodes.packing.state import find_contacts
+from grainmodes.parameters.law import TANGENTIAL_LAWS, ContactLaw
+from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.law_comparison import comparison
+from grainmodes.protocols.law_comparison.comparison import Seen, Variant, variant
+from grainmodes.protocols.release.simulated_growth import growth_rate
+from grainmodes.protocols.shear.one_sided import (
+    SLIPPING,
+    STICKING,
+    beside_threshold,
+    growing_mode,
+    oscillation,
+    slipping_contacts,
+)
+from grainmodes.relaxation.newton import slipped
+from grainmodes.response.stability import INERTIA, complex_pairs
+from grainmodes.stages import law_comparison
+from grainmodes.stages.samples import packed
+
+SHARP = [law for law in LAWS if law.tangential.startswith("sharp")]
+C8 = ContactLaw("harmonic", "smoothed_coulomb", 0.3, 0.5)
+BRIEF = Shear(strain=2e-3, step=1e-4)
+
+
+def half_slipped(law: ContactLaw):
+    """Contacts some of which the law has cut, and the packing."""
+    return slipped(keeping(law, crowd(91, slip=2.5)), interaction(law))
+
+
+@pytest.mark.parametrize("law", SHARP, ids=law_name)
+def test_only_springs_at_their_threshold_have_two_sides(law):
+    rule, (_, contacts) = interaction(law), half_slipped(law)
+    at = slipping_contacts(contacts, rule)
+    assert 0 < at.sum() < len(at)
+    slips, sticks = (
+        stiffness_of(beside_threshold(contacts, side), rule) for side in (SLIPPING, STICKING)
+    )
+    apart = np.abs(slips - sticks).max(axis=(1, 2))
+    assert apart[~at].max() < 1e-7 < 1e-2 < apart[at].min()
+    np.testing.assert_array_equal(slips[at, 2, 2], 0.0)
+    assert np.all(sticks[at, 2, 2] < 0.0)
+
+
+@pytest.mark.parametrize("law", SHARP, ids=law_name)
+def test_contacts_slide_whose_tangential_force_is_coulombs(law):
+    rule, (_, contacts) = interaction(law), half_slipped(law)
+    force = forces_on_i(contacts, rule)[:, :2]
+    normal, tangential = (
+        np.abs(np.einsum("ca,ca->c", force, axis)) for axis in (contacts.normal, contacts.tangent)
+    )
+    at = tangential >= (1.0 - 1e-9) * law.friction_coefficient * normal
+    assert 0 < at.sum() < len(at)
+    np.testing.assert_array_equal(sliding(contacts, rule), at)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=law_name)
+def test_forces_are_the_same_on_both_sides(law):
+    rule, (_, contacts) = interaction(law), half_slipped(law)
+    whole = forces_on_i(contacts, rule)
+    for side in (SLIPPING, STICKING):
+        beside = forces_on_i(beside_threshold(contacts, side), rule)
+        np.testing.assert_allclose(beside, whole, atol=1e-8)
+
+
+def unstable():
+    """The sheared state of the independent code, which has pairs."""
+    data, packing = reference(SHEARED)
+    return packing, interaction(smoothed_coulomb(data))
+
+
+def test_pairs_are_those_of_the_whole_matrix():
+    packing, rule = unstable()
+    found = oscillation(packing, find_contacts(packing), rule, SLIPPING)
+    assert found.pairs == complex_pairs(packing, rule) > 0
+    root = complex(found.frequency, found.rate)
+    assert root**2 == pytest.approx(found.eigenvalue, rel=1e-12)
+
+
+def test_the_growing_mode_is_an_eigenvector():
+    packing, rule = unstable()
+    contacts = find_contacts(packing)
+    value = oscillation(packing, contacts, rule, SLIPPING).eigenvalue
+    u = growing_mode(packing, contacts, rule, SLIPPING)
+    off = (jacobian(packing, contacts, rule) @ u.ravel()).reshape(u.shape)
+    off = off / (packing.mass[:, None] * INERTIA) - value * u
+    assert np.abs(u).max() == pytest.approx(1.0)
+    assert np.abs(off).max() < 1e-7
+
+
+def test_without_history_nothing_oscillates():
+    packing, rule = unstable()
+    still = replace(packing, history=None)
+    found = oscillation(still, find_contacts(still), rule, SLIPPING)
+    assert (found.pairs, found.rate, found.frequency) == (0, 0.0, 0.0)
+
+
+def test_a_released_state_grows_as_linear_theory_says():
+    packing, rule = unstable()
+    found = oscillation(packing, find_contacts(packing), rule, SLIPPING)
+    assert growth_rate(packing, rule, found) == pytest.approx(found.rate, rel=2e-3)
+
+
+def test_states_are_spread_over_the_way(monkeypatch):
+    monkeypatch.setattr(comparison, "STATES", 4)
+    packing = reference("harmonic_n16_phi0.900_seed1")[1]
+    seen = variant(packing, interaction(C8), BRIEF).seen
+    np.testing.assert_allclose([state.strain for state in seen], [5e-4, 1e-3, 1.5e-3, 2e-3])
+
+
+def test_a_way_that_ends_keeps_what_was_seen(monkeypatch):
+    def step_to(strain, balance, choices):
+        if strain > 1.05e-3:
+            raise ArithmeticError("lost")
+        return balance, False
+
+    monkeypatch.setattr(comparison, "step_to", step_to)
+    found = variant(reference("harmonic_n16_phi0.900_seed1")[1], interaction(C8), BRIEF)
+    assert (len(found.seen), found.ending) == (10, "lost")
+
+
+def block_of(name: str) -> Block:
+    """A block of one packing."""
+    packing = reference(name)[1]
+    row = packed(packing, interaction(C8).normal) | {"converged": 1, "seed": 0}
+    variables = {key: np.asarray(value)[None] for key, value in row.items()}
+    return Block(variables, {"n": packing.n, "phi": 0.9})
+
+
+def test_a_block_holds_every_law_side_by_side():
+    block = law_comparison.variants_block(block_of("harmonic_n16_phi0.900_seed1"), C8, BRIEF)
+    of = block.variables
+    assert set(of) <= set(VARIABLES)
+    assert of["converged"][0] == of["jammed"][0] == 1
+    assert of["variant_count"][0] == 20
+    for law in TANGENTIAL_LAWS:
+        pairs, growth = (of[f"variant_{name}_{law}"][0] for name in ("pairs_slipping", "growth"))
+        assert np.isfinite(pairs).all()
+        np.testing.assert_array_equal(np.isfinite(growth), pairs > 0)
+
+
+def test_harmonic_springs_cannot_tell_what_they_remember():
+    block = law_comparison.variants_block(block_of("harmonic_n16_phi0.900_seed1"), C8, BRIEF)
+    for kind in ("elastic", "sharp_coulomb"):
+        for number in ("pairs_slipping", "pairs_sticking", "slipping"):
+            one, other = (
+                block.variables[f"variant_{number}_{law}"] for law in (kind, f"{kind}_force")
+            )
+            np.testing.assert_array_equal(other, one)
+
+
+def test_a_law_that_ended_early_is_told():
+    seen = [Seen(strain, 1, 0, 2, 0.1, 0.0) for strain in (1e-3, 2e-3)]
+    found = dict.fromkeys(TANGENTIAL_LAWS, Variant(seen))
+    found["sharp_coulomb"] = Variant(seen[:1], "lost")
+    row = law_comparison.row_of(found)
+    assert row["failure"] == "sharp_coulomb: lost" and not row["converged"]
+    np.testing.assert_array_equal(row["variant_strain"], [1e-3, 2e-3])
+    np.testing.assert_array_equal(row["variant_rate_sharp_coulomb"], [0.1, np.nan])
+    np.testing.assert_array_equal(row["variant_rate_elastic"], [0.1, 0.1])
+
+
+def test_too_many_grains_are_refused(monkeypatch):
+    monkeypatch.setattr(law_comparison, "MOST_GRAINS", 10)
+    block = law_comparison.variants_block(block_of("harmonic_n16_phi0.900_seed1"), C8, BRIEF)
+    assert block.variables["converged"][0] == 0
+    assert "16 grains: variants are counted up to 10" in block.attributes["failures"]["0"]

@@ -1,0 +1,194 @@
+"""The stage of quasistatic shear: what it holds, that it resumes, and that failures stay apart."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from example_packings import reference
+from grainmodes.cli import main
+from grainmodes.dataset.files import Block, read_block, write_block
+from grainmodes.ensemble.point import merge_blocks
+from grainmodes.kernels.laws import Harmonic, interaction
+from grainmodes.packing.contacts import History
+from grainmodes.packing.forces import largest, net_force
+from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.shear.run import Walk
+from grainmodes.stages.checkpoints import Keeping, fingerprint
+from grainmodes.stages.rows import block_of
+from grainmodes.stages.samples import packed
+from grainmodes.stages.shear import shear_block
+
+LAW = ContactLaw("harmonic", "elastic", 1.0)
+SMALL, LOOSE = "harmonic_n16_phi0.900_seed1", "harmonic_n64_phi0.860_seed2"
+CHOICES = Shear(strain=0.1, step=1e-3, smallest_step=1e-6, lowest_eigenvalue="states")
+MAIN = "import sys; from grainmodes.cli import main; sys.exit(main(sys.argv[1:]))"
+SETTINGS = {
+    "contact_law": {"normal": "harmonic"},
+    "protocol": {"shear": {"strain": 0.03, "step": 1e-4, "smallest_step": 1e-8}},
+}
+
+
+def packings(*some: Packing) -> Block:
+    """Harmonic packings as a block of stage `packings`."""
+    rows = [packed(p, Harmonic(1.0)) | {"converged": True} for p in some]
+    point = {"n": some[0].n, "phi": some[0].phi, "stage": "packings"}
+    return block_of(range(len(rows)), rows.__getitem__, {}, point)
+
+
+@pytest.fixture(scope="module")
+def sheared() -> Block:
+    """One sample with events, one that is not jammed."""
+    packing = reference(LOOSE)[1]
+    return shear_block(packings(packing, packing.at(0.5)), LAW, CHOICES)
+
+
+def test_the_curve_is_there_state_by_state(sheared):
+    values = sheared.variables
+    count = values["curve_count"][0]
+    strain = values["curve_strain"][0]
+    assert count == np.isfinite(strain).sum() == np.isfinite(values["curve_energy"][0]).sum()
+    assert strain[0] == 0.0
+    assert strain[count - 1] == pytest.approx(0.1, abs=1e-12)
+    assert np.all(np.diff(strain[:count]) > 0.0)
+    assert np.all(values["curve_lowest_eigenvalue"][0, :count] > 0.0)
+
+
+def test_an_event_can_be_taken_up_from_either_side(sheared):
+    values, whole = sheared.variables, reference(LOOSE)[1]
+    assert values["event_count"][0] >= 1
+    for side in ("before", "after"):
+        held = values[f"event_contact_i_{side}"][0, 0] >= 0
+        history = History.of(
+            *(values[f"event_{name}_{side}"][0, 0][held] for name in ("contact_i", "contact_j")),
+            values[f"event_slip_{side}"][0, 0][held],
+        )
+        state = Packing(
+            np.ascontiguousarray(values[f"event_fraction_{side}"][0, 0].T),
+            whole.diameter,
+            whole.mass,
+            whole.box_length,
+            float(values[f"event_strain_{side}"][0, 0]),
+            history=history,
+        )
+        rule = interaction(LAW)
+        assert max(largest(net_force(state, find_contacts(state), rule))) < 1e-14
+
+
+def test_a_packing_that_is_not_jammed_has_no_curve(sheared):
+    values = sheared.variables
+    assert values["converged"].tolist() == [1, 1]
+    assert values["jammed"].tolist() == [1, 0]
+    assert values["curve_count"][1] == values["event_count"][1] == 0
+    assert np.isnan(values["curve_strain"][1]).all()
+
+
+def test_a_sample_that_loses_its_rigidity_keeps_its_curve(monkeypatch):
+    """And is not converged."""
+    advance, tries = Walk.advance, []
+
+    def give_up(walk):
+        tries.append(walk)
+        walk.ending = "the backbone lost its rigidity"
+        return len(tries) < 5 and advance(walk)
+
+    monkeypatch.setattr(Walk, "advance", give_up)
+    block = shear_block(packings(reference(SMALL)[1]), LAW, CHOICES)
+    assert block.variables["converged"].tolist() == [0]
+    assert block.variables["curve_count"].tolist() == [5]
+    assert block.attributes["failures"] == {"0": "the backbone lost its rigidity"}
+
+
+def test_a_point_keeps_curves_and_events_but_no_grains(sheared):
+    point = merge_blocks({"shear": Block(sheared.variables, sheared.attributes)})
+    assert {"curve_strain", "event_g_before", "change_opened"} <= set(point.variables)
+    assert not {"event_fraction_before", "event_displacement"} & set(point.variables)
+
+
+def command(folder, name: str) -> list[str]:
+    words = ["shear", str(folder / "packings.nc"), "--kt", "1", "--settings", json.dumps(SETTINGS)]
+    return [*words, "--keep-every", "0.05", "-o", str(folder / name)]
+
+
+def test_a_killed_shear_goes_on_and_ends_with_the_same_bytes(tmp_path):
+    write_block(tmp_path / "packings.nc", packings(reference(LOOSE)[1], reference(LOOSE)[1]))
+    assert main(command(tmp_path, "whole.nc")) == 0
+    run = subprocess.Popen(
+        [sys.executable, "-c", MAIN, *command(tmp_path, "again.nc")],
+        stderr=subprocess.DEVNULL,
+    )
+    while not list(tmp_path.glob(".again.nc.*.kept")) and run.poll() is None:
+        time.sleep(0.01)
+    os.kill(run.pid, signal.SIGKILL)
+    run.wait()
+    assert not (tmp_path / "again.nc").exists()
+    assert main(command(tmp_path, "again.nc")) == 0
+    assert (tmp_path / "again.nc").read_bytes() == (tmp_path / "whole.nc").read_bytes()
+    assert not list(tmp_path.glob(".again.nc.*"))
+
+
+def test_a_walk_of_other_choices_or_a_broken_file_is_passed_over(tmp_path):
+    walk = Walk.start(reference(SMALL)[1], interaction(LAW), CHOICES)
+    keeping = Keeping(tmp_path / "x.nc", (LAW, CHOICES), seconds=-1.0)
+    keeping.kept("seed-0")
+    keeping.watch("seed-0", walk)
+    assert Keeping(tmp_path / "x.nc", (LAW, CHOICES), 1.0).kept("seed-0").now.units == 0
+    assert Keeping(tmp_path / "x.nc", (LAW, Shear()), 1.0).kept("seed-0") is None
+    (tmp_path / ".x.nc.seed-0.kept").write_bytes(b"nonsense")
+    assert Keeping(tmp_path / "x.nc", (LAW, CHOICES), 1.0).kept("seed-0") is None
+
+
+def test_a_walk_from_another_packing_is_passed_over(tmp_path):
+    """Packings made anew in another way have the same name and place."""
+    one = packings(reference(LOOSE)[1])
+    marks = [fingerprint(of) for of in (one, one, packings(reference(LOOSE)[1].at(0.865)))]
+    assert marks[0] == marks[1] != marks[2]
+    keeping = Keeping(tmp_path / "x.nc", (LAW, CHOICES, marks[0]), seconds=-1.0)
+    keeping.kept("seed-0")
+    keeping.watch("seed-0", Walk.start(reference(SMALL)[1], interaction(LAW), CHOICES))
+    again = [Keeping(tmp_path / "x.nc", (LAW, CHOICES, mark), 1.0).kept("seed-0") for mark in marks]
+    assert [walk is None for walk in again] == [False, False, True]
+
+
+def test_a_line_says_how_far_a_walk_is(tmp_path, capsys):
+    keeping = Keeping(tmp_path / "x.nc", (LAW, CHOICES), seconds=-1.0)
+    walk = keeping.kept("seed-3") or Walk.start(reference(SMALL)[1], interaction(LAW), CHOICES)
+    while walk.now.strain < 0.005 or not walk.restartable:
+        walk.advance()
+    keeping.watch("seed-3", walk)
+    line = capsys.readouterr().err
+    pattern = r"seed-3: strain 0\.\d+ of 0\.1, \d+ events, \d+ states per second, \d+ min left\n"
+    assert re.fullmatch(pattern, line)
+
+
+def test_the_block_reads_back(tmp_path, sheared):
+    write_block(tmp_path / "shear.nc", sheared)
+    back = read_block(tmp_path / "shear.nc")
+    assert back.attributes["stage"] == "shear"
+    for name, array in sheared.variables.items():
+        np.testing.assert_array_equal(back.variables[name], array)
+
+
+def test_a_shear_without_brackets_stands_beside_it():
+    choices = Shear(strain=0.03, step=1e-3, smallest_step=1e-6)
+    one = packings(reference(LOOSE)[1])
+    values = shear_block(one, LAW, choices, unbracketed=True).variables
+    assert values["unbracketed_strain"].shape == (1, 31)
+    alone = shear_block(one, LAW, Shear(strain=0.03, step=1e-3, smallest_step=1e-3)).variables
+    stress = 0.5 * (alone["curve_stress_xy"] + alone["curve_stress_yx"])
+    np.testing.assert_array_equal(values["unbracketed_stress"], stress)
+    width = values["bracket_strain_after"] - values["bracket_strain_before"]
+    np.testing.assert_allclose(
+        values["bracket_smallest_step"], choices.step / 10.0 ** np.arange(7)[None]
+    )
+    known = np.isfinite(width)
+    assert known.any()
+    np.testing.assert_allclose(width[known], values["bracket_smallest_step"][known], rtol=1e-6)
