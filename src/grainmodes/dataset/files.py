@@ -30,6 +30,11 @@ class Block:
     variables: dict[str, np.ndarray]
     attributes: dict[str, object]
 
+    def mapping(self, name: str) -> dict:
+        """An attribute that is a dictionary: as made, or as the JSON text that a file holds."""
+        value = self.attributes.get(name, {})
+        return json.loads(value) if isinstance(value, str) else dict(value)
+
 
 def write_block(path: str | Path, block: Block) -> None:
     """Write a block: all of it or nothing.

@@ -181,3 +181,14 @@ def backbone(packing: Packing, threshold: int) -> Packing:
     """The packing without its rattlers, those of at most `threshold` contacts."""
     gone = rattlers(find_contacts(packing), packing.n, threshold)
     return packing.without(gone) if gone.any() else packing
+
+
+def on_all_grains(field: np.ndarray, is_rattler: np.ndarray) -> np.ndarray:
+    """A field (N', k) of the backbone as one of all N grains, (N, 3): NaN where there is none.
+
+    Args:
+        is_rattler: (N,) bool; the N' others carry the field.
+    """
+    whole = np.full((len(is_rattler), 3), np.nan)
+    whole[~is_rattler, : field.shape[1]] = field
+    return whole

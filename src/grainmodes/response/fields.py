@@ -3,9 +3,9 @@
     r_i(Δγ) − r_i(0) = Δγ (y_i − L/2, 0) + Δr̊_i,    ℓ_i(Δγ) − ℓ_i(0) = Δℓ̊_i        A (10), (11)
     u_i = (dr̊_i/dγ, dℓ̊_i/dγ)                                                     A (12), (13), (33)
 
-u is found in three ways that must agree: the direct solve of `rigidity`, the sum over the modes,
-A (38), and the relaxed states at Δγ and −Δγ. A takes the forward difference; the central one leaves
-an error of second order. Eigenvectors, J R_n = λ_n R_n with λ_n = ω_n², are those of A (21), (48).
+u is found in three ways that must agree: the direct solve of `moduli`, the sum over the modes,
+A (38), and relaxed step strains (`protocols.shear.step_strain_field`). Eigenvectors,
+J R_n = λ_n R_n with λ_n = ω_n², are those of A (21), (48).
 
 A field is (N, 3), components (x, y, ℓ), on all grains: NaN for the rattlers, which are taken out
 before anything is solved, and NaN for ℓ where friction does not exist. The mean of x and of y is
@@ -25,10 +25,8 @@ import numpy as np
 
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.contacts import rattlers
-from grainmodes.packing.state import Packing, find_contacts, nonaffine_motion
+from grainmodes.packing.state import Packing, find_contacts, on_all_grains
 from grainmodes.parameters.spectra import SpectrumChoices
-from grainmodes.parameters.strain import StepStrain
-from grainmodes.protocols.shear.step_strain import relaxed_steps
 from grainmodes.response.mode_sum import mode_sum
 from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import Problem, problem, spectrum, spectrum_slicing
@@ -57,7 +55,7 @@ def nonaffine_field(packing: Packing, interaction: Interaction, threshold: int =
         FloppyError: the backbone has zero modes beyond the translations.
     """
     gone = _rattlers(packing, threshold)
-    return _on_all(rigidity(packing, interaction, threshold).unloaded.displacement, gone)
+    return on_all_grains(rigidity(packing, interaction, threshold).unloaded.displacement, gone)
 
 
 def mode_sum_field(packing: Packing, interaction: Interaction, threshold: int = 2) -> np.ndarray:
@@ -68,28 +66,7 @@ def mode_sum_field(packing: Packing, interaction: Interaction, threshold: int = 
     """
     gone = _rattlers(packing, threshold)
     modes = spectrum(packing, interaction, threshold, choices=SpectrumChoices(method="dense"))
-    return _on_all(mode_sum(packing, interaction, modes, threshold).displacement, gone)
-
-
-def simulated_field(
-    packing: Packing, interaction: Interaction, protocol: StepStrain, threshold: int = 2
-) -> np.ndarray:
-    """u from step strains to both sides, relaxed by the full non-linear forces; (N, 3) in d.
-
-    Raises:
-        ArithmeticError: a relaxation did not reach its force tolerance.
-    """
-    gone = _rattlers(packing, threshold)
-    backbone = packing.without(gone)
-    steps = relaxed_steps(backbone, interaction, protocol)
-    for step in steps:
-        if not step.converged:
-            worst = max(step.max_force, step.max_torque)
-            raise ArithmeticError(f"step strain: {worst:.1e} is left after {step.iterations} steps")
-    forward, backward = (nonaffine_motion(backbone, step.packing) for step in steps)
-    u = (forward - backward) / (2.0 * protocol.strain)
-    u[:, :2] -= u[:, :2].mean(axis=0)
-    return _on_all(u, gone)
+    return on_all_grains(mode_sum(packing, interaction, modes, threshold).displacement, gone)
 
 
 def nearest_modes(
@@ -108,7 +85,7 @@ def nearest_modes(
     values, vectors = np.array([value for value, _ in pairs]), np.array([r for _, r in pairs])
     return NearestModes(
         np.sqrt(np.abs(values)),
-        np.stack([_on_all(vector.reshape(-1, of.k), gone) for vector in vectors]),
+        np.stack([on_all_grains(vector.reshape(-1, of.k), gone) for vector in vectors]),
         np.linalg.norm(of.matrix @ vectors.T - vectors.T * values, axis=0),
     )
 
@@ -122,10 +99,3 @@ def _nearest(of: Problem, shift: float) -> tuple[float, np.ndarray]:
 
 def _rattlers(packing: Packing, threshold: int) -> np.ndarray:
     return rattlers(find_contacts(packing), packing.n, threshold)
-
-
-def _on_all(field: np.ndarray, gone: np.ndarray) -> np.ndarray:
-    """A field (N', k) of the backbone on all N grains, (N, 3)."""
-    whole = np.full((len(gone), 3), np.nan)
-    whole[~gone, : field.shape[1]] = field
-    return whole

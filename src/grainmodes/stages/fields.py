@@ -16,13 +16,8 @@ from grainmodes.packing.state import Packing
 from grainmodes.parameters.fields import MOST_FOR_ALL_MODES
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
-from grainmodes.response.fields import (
-    affine_field,
-    mode_sum_field,
-    nearest_modes,
-    nonaffine_field,
-    simulated_field,
-)
+from grainmodes.protocols.shear.step_strain_field import simulated_field
+from grainmodes.response.fields import affine_field, mode_sum_field, nearest_modes, nonaffine_field
 from grainmodes.stages.rows import response_block
 from grainmodes.stages.samples import first_sample, jammed_packing
 

@@ -20,7 +20,7 @@ from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.compression.trajectory import advanced, balanced, placed
 from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.response.moduli import Moduli, rigidity
-from grainmodes.stages.rows import attribute, block_of, described, response_block
+from grainmodes.stages.rows import block_of, described, response_block
 from grainmodes.stages.samples import (
     check_same,
     check_start,
@@ -55,7 +55,7 @@ def compress_block(
         return checkpoint(advanced(before, phi, law, compression))
 
     attributes = described("trajectories", config, n=n, phi=phi)
-    failures = {} if start is None else attribute(start, "failures")
+    failures = {} if start is None else start.mapping("failures")
     return block_of(seeds, sample, failures, attributes)
 
 
@@ -79,7 +79,7 @@ def packing_block(start: Block, phi: float, compression: Compression, normal: st
         }
 
     attributes = described("packings", config, n=int(start.attributes["n"]), phi=phi)
-    failures = attribute(start, "failures")
+    failures = start.mapping("failures")
     return block_of(start.variables["seed"], sample, failures, attributes)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable
 
 import numpy as np
@@ -56,8 +55,8 @@ def response_block(packings: Block, stage: str, config: dict, law: ContactLaw, s
     if absent:
         raise BlockError(f"the packings have no attribute {' and no '.join(absent)}")
     point = {name: packings.attributes[name] for name in ("n", "phi")} | {"kt": law.kt}
-    attributes = described(stage, attribute(packings, "config") | config, **point)
-    failures = attribute(packings, "failures")
+    attributes = described(stage, packings.mapping("config") | config, **point)
+    failures = packings.mapping("failures")
     return block_of(packings.variables["seed"], sample, failures, attributes)
 
 
@@ -82,9 +81,3 @@ def _column(name: str, values: list[object]) -> np.ndarray:
         if array is not None:
             column[(row, *(slice(length) for length in array.shape))] = array
     return column
-
-
-def attribute(block: Block, name: str) -> dict:
-    """An attribute that is a dictionary: as made, or as the JSON text that a file holds."""
-    value = block.attributes.get(name, {})
-    return json.loads(value) if isinstance(value, str) else dict(value)

@@ -13,7 +13,6 @@ from grainmodes.packing.forces import largest, mean_contact_force, net_force, st
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.protocols.compression.trajectory import Trajectory
-from grainmodes.stages.rows import attribute
 
 BALANCE = 1e-6
 """Largest force on a grain, relative to the mean contact force, of a packing in balance."""
@@ -38,7 +37,7 @@ def check_start(block: Block, config: dict, phi: float) -> None:
     Raises:
         BlockError: they lie above φ, or were made with other parameters.
     """
-    made, asked = _flat(attribute(block, "config")), _flat(config)
+    made, asked = _flat(block.mapping("config")), _flat(config)
     differing = [key for key in asked if made.get(key) != asked[key]]
     other = [f"{key} = {made.get(key)}, not {asked[key]}" for key in differing]
     if other:
@@ -177,7 +176,7 @@ def jammed_packing(block: Block, number: int, interaction: Interaction) -> tuple
 def first_sample(block: Block) -> Block:
     """The block of its first sample alone."""
     seed = str(seed_of(block, 0))
-    failures = {key: text for key, text in attribute(block, "failures").items() if key == seed}
+    failures = {key: text for key, text in block.mapping("failures").items() if key == seed}
     rows = {name: array[:1] for name, array in block.variables.items()}
     return Block(rows, block.attributes | {"failures": failures})
 
@@ -189,7 +188,7 @@ def seed_of(block: Block, number: int) -> int:
 
 def force_tolerance(block: Block) -> float:
     """F_Th that the packings of a block were made to; of foreign ones A's 1e-14."""
-    return attribute(block, "config").get("compression", asdict(Compression()))["force_tolerance"]
+    return block.mapping("config").get("compression", asdict(Compression()))["force_tolerance"]
 
 
 def _state(packing: Packing) -> dict[str, object]:

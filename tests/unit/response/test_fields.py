@@ -12,13 +12,8 @@ from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import relaxed_steps
-from grainmodes.response.fields import (
-    affine_field,
-    mode_sum_field,
-    nearest_modes,
-    nonaffine_field,
-    simulated_field,
-)
+from grainmodes.protocols.shear.step_strain_field import simulated_field
+from grainmodes.response.fields import affine_field, mode_sum_field, nearest_modes, nonaffine_field
 from grainmodes.spectrum import full, spectrum
 from grainmodes.stages import fields
 from grainmodes.stages.fields import fields_block

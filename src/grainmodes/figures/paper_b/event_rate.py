@@ -10,7 +10,6 @@ from grainmodes.figures.shared import event_maps, step_strain_maps
 from grainmodes.figures.shared.field_rows import described
 from grainmodes.figures.shared.grain_maps import Scale
 from grainmodes.figures.shared.selection import Options
-from grainmodes.stages.rows import attribute
 
 VARIABLES = {"theory": "rate", "simulation": "rate_simulated"}
 TITLES = {"theory": "linear response", "simulation": "simulation"}
@@ -33,7 +32,7 @@ def table(close_ups: list[Block], options: Options) -> pd.DataFrame:
 
 
 def _step(block: Block) -> float:
-    return attribute(block, "config")["rate"]
+    return block.mapping("config")["rate"]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -9,7 +9,6 @@ from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import appearance
 from grainmodes.figures.shared.field_rows import at_kt, at_point
 from grainmodes.figures.shared.selection import Options
-from grainmodes.stages.rows import attribute
 
 SAMPLE = {
     "n": ("1", "number of grains N"),
@@ -42,7 +41,7 @@ def rows(block: Block, columns: dict[str, str]) -> pd.DataFrame:
 
 def sample(block: Block) -> dict[str, object]:
     """The values of `SAMPLE`."""
-    law = attribute(block, "config")["law"]["normal"]
+    law = block.mapping("config")["law"]["normal"]
     point = {name: block.attributes[name] for name in ("n", "phi", "kt")}
     return point | {"law": law, "seed": block.variables["seed"][0]}
 

@@ -13,7 +13,6 @@ from grainmodes.figures.shared import appearance
 from grainmodes.figures.shared.close_up_rows import SAMPLE
 from grainmodes.figures.shared.field_rows import at_kt, at_point
 from grainmodes.figures.shared.selection import Options, first_or
-from grainmodes.stages.rows import attribute
 
 PAPER_N = 500
 
@@ -51,7 +50,7 @@ class Sample(NamedTuple):
     def columns(self, run: int = 0) -> dict[str, object]:
         """The values of `COLUMNS` for one of its runs."""
         point = {name: self.block.attributes[name] for name in ("n", "phi", "kt")}
-        law = attribute(self.block, "config")["law"]["normal"]
+        law = self.block.mapping("config")["law"]["normal"]
         pair = {name: float(self.of(f"{name}_linear")) for name in ("rate", "frequency")}
         damping = float(self.of("damping")[run])
         return point | {"law": law, "seed": self.seed} | pair | {"damping": damping}

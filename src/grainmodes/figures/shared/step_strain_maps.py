@@ -16,7 +16,6 @@ from grainmodes.figures.shared.grain_maps import (
     write_caption,
 )
 from grainmodes.figures.shared.selection import Options
-from grainmodes.stages.rows import attribute
 
 COLUMNS = GRAINS | {
     "strain_step": ("1", "size of the simulated step strain, taken to both sides"),
@@ -37,7 +36,7 @@ def rows(
 
 
 def _displacements(block: Block, variables: dict[str, str]) -> pd.DataFrame:
-    found = grains(block).assign(strain_step=attribute(block, "config")["step_strain"]["strain"])
+    found = grains(block).assign(strain_step=block.mapping("config")["step_strain"]["strain"])
     for prefix, name in variables.items():
         found = found.assign(**components(prefix, block.variables[name][0]))
     return found
