@@ -56,7 +56,7 @@ def test_every_need_of_a_figure_has_its_words():
 def test_observables_meet_in_one_grid_and_the_rest_in_those_that_have_them(
     monkeypatch, needs, grids, missing
 ):
-    monkeypatch.setitem(FIGURES, "new", Figure("New", tuple(needs.split())))
+    monkeypatch.setitem(FIGURES, "new", Figure("paper_a", "New", tuple(needs.split())))
     kept = [grid | {"phi": [0.8 + 0.02 * k, 0.9 + 0.02 * k]} for k, grid in enumerate(grids)]
     kept = kept if "several_phi" not in needs else grids
     assert lacking("new", scene_of_grids(*kept).grids) == missing
