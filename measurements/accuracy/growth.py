@@ -17,6 +17,7 @@ import numpy as np
 from grainmodes.kernels.damping import Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import interaction
+from grainmodes.packing.mass_weighted import root_mass
 from grainmodes.packing.state import Packing, nonaffine_motion
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
@@ -24,7 +25,6 @@ from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.tracking import PairWalk
 from grainmodes.relaxation.dynamics import move
-from grainmodes.response.stability import INERTIA
 from measurements.accuracy.packings import compressed
 
 RULE = interaction(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, 10.0))
@@ -86,7 +86,7 @@ def leaving(n: int, seed: int) -> Leaving | None:
     if found is None or found.growth < SLOWEST:
         return None
     pairs, packing = found.state.pairs, found.state.balance.packing
-    inertia = np.sqrt(packing.mass[:, None] * INERTIA).ravel()
+    root = root_mass(packing.mass).ravel()
     right, left = (of[:, found.place] for of in (pairs.right, pairs.left))
     omega = complex(np.sqrt(pairs.value[found.place]))
-    return Leaving(packing, omega, right / inertia, left * inertia)
+    return Leaving(packing, omega, right / root, left * root)

@@ -12,12 +12,12 @@ from example_packings import SHEARED, reference, smoothed_coulomb
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Interaction, interaction
 from grainmodes.packing.jacobian import jacobian
+from grainmodes.packing.mass_weighted import generalized_mass
 from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.release import Release
 from grainmodes.protocols.release.run import Run
 from grainmodes.protocols.shear.unstable import Unstable
-from grainmodes.response.stability import INERTIA
 from grainmodes.stages.rows import block_of
 
 SHORT = Release(duration=18.0, least_time=0.0, records=600, spectra=0)
@@ -30,8 +30,8 @@ def state() -> tuple[Unstable, ContactLaw, Interaction]:
     data, packing = reference(SHEARED)
     law = smoothed_coulomb(data)
     rule = interaction(law)
-    inertia = (packing.mass[:, None] * INERTIA).ravel()
-    matrix = jacobian(packing, find_contacts(packing), rule).toarray() / inertia[:, None]
+    mass = generalized_mass(packing.mass).ravel()
+    matrix = jacobian(packing, find_contacts(packing), rule).toarray() / mass[:, None]
     values, vectors = scipy.linalg.eig(matrix)
     fastest = np.argmax(np.sqrt(values).imag)
     turning = replace(packing, rotation=np.zeros(packing.n))

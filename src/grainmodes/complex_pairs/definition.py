@@ -26,8 +26,7 @@ import numpy as np
 import scipy.linalg
 import scipy.sparse as sparse
 
-from grainmodes.relaxation.balance import Balance
-from grainmodes.response.stability import INERTIA, REAL, asymmetry
+from grainmodes.response.stability import REAL, asymmetry
 
 ROUNDING = 1e-14
 """max|K − Kᵀ| / max|K| of a symmetric J."""
@@ -60,12 +59,6 @@ class Pairs(NamedTuple):
     def growth(self) -> np.ndarray:
         """ω_i, (P,), in 1/t0: C (12)."""
         return np.sqrt(self.value).imag
-
-
-def mass_weighted(balance: Balance) -> sparse.csr_array:
-    """K of the grains that carry load, in k_N d^(1/2)/m."""
-    scale = 1.0 / np.sqrt(balance.backbone.mass[:, None] * INERTIA).ravel()
-    return (sparse.diags_array(scale) @ balance.matrix @ sparse.diags_array(scale)).tocsr()
 
 
 def translations(mass: np.ndarray) -> np.ndarray:

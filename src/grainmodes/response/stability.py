@@ -20,10 +20,8 @@ from scipy.sparse.linalg import LinearOperator, eigs
 from grainmodes.kernels.laws import Interaction
 from grainmodes.linalg.pinned_factor import PinnedFactor
 from grainmodes.packing.jacobian import jacobian
+from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.packing.state import Packing, find_contacts
-
-INERTIA = np.array([1.0, 1.0, 0.5])
-"""Inertia of (x, y, ℓ) in units of m_i: 4 I_i/d_i² = m_i/2."""
 
 REAL = 1e-9
 """|Im λ'| up to which an eigenvalue counts as real, k_N d^(1/2)/m."""
@@ -44,9 +42,9 @@ def eigenvalues(packing: Packing, interaction: Interaction) -> np.ndarray:
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
-    matrix = jacobian(packing, find_contacts(packing), interaction).toarray()
-    scale = 1.0 / np.sqrt(packing.mass[:, None] * INERTIA).ravel()
-    return scipy.linalg.eigvals(scale[:, None] * matrix * scale, overwrite_a=True)
+    matrix = jacobian(packing, find_contacts(packing), interaction)
+    weighted = mass_weighted_jacobian(matrix, packing.mass).toarray()
+    return scipy.linalg.eigvals(weighted, overwrite_a=True)
 
 
 def asymmetry(matrix: sparse.csc_array) -> float:

@@ -12,10 +12,11 @@ from dataclasses import asdict
 
 import numpy as np
 
-from grainmodes.complex_pairs.definition import mass_weighted, on_all_grains
+from grainmodes.complex_pairs.definition import on_all_grains
 from grainmodes.complex_pairs.plane import plane_near
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import interaction
+from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
@@ -23,7 +24,6 @@ from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, S
 from grainmodes.protocols.pair_tracking.linear_range import Chosen
 from grainmodes.protocols.pair_tracking.paths import path_of, products_along
 from grainmodes.protocols.pair_tracking.tracking import Life, Located, PairWalk
-from grainmodes.response.stability import INERTIA
 from grainmodes.stages.rows import response_block
 from grainmodes.stages.samples import jammed_packing
 
@@ -174,7 +174,7 @@ def _unstable(unstable: Chosen | None) -> dict[str, object]:
         return {"unstable_found": False}
     balance = unstable.state.balance
     packing, side = balance.packing, unstable.state.side(unstable.place)
-    plane = plane_near(mass_weighted(balance), side.plane)
+    plane = plane_near(mass_weighted_jacobian(balance.matrix, balance.backbone.mass), side.plane)
     mode = mode_of(Side(balance, plane))
     return {
         "unstable_found": True,
@@ -197,7 +197,7 @@ def _unstable(unstable: Chosen | None) -> dict[str, object]:
 def mode_of(side: Side) -> np.ndarray:
     """q = M^(−1/2) u of λ1 on all grains, (N, 3) complex, of norm 1, its largest component real."""
     balance = side.balance
-    scale = 1.0 / np.sqrt(balance.backbone.mass[:, None] * INERTIA).ravel()
+    scale = 1.0 / root_mass(balance.backbone.mass).ravel()
     q = on_all_grains(scale[:, None] * side.plane.vectors[:, :1], balance.held).reshape(-1, 3)
     top = q.ravel()[np.argmax(np.abs(q))]
     return q * (abs(top) / top / np.linalg.norm(q))

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from example_packings import SHEARED, reference, smoothed_coulomb
 from grainmodes.complex_pairs import continuation, partitioning
 from grainmodes.complex_pairs.continuation import Carried
-from grainmodes.complex_pairs.definition import Loaded, Pairs, dense_pairs, mass_weighted
+from grainmodes.complex_pairs.definition import Loaded, Pairs, dense_pairs
 from grainmodes.complex_pairs.eigenbasis import Basis
 from grainmodes.complex_pairs.invariant_subspaces import Couples
 from grainmodes.complex_pairs.matching import Planes, matched, parts
@@ -16,6 +16,7 @@ from grainmodes.complex_pairs.partitioning import NearlyDiagonal, Solved, solved
 from grainmodes.complex_pairs.plane import SETTLED, plane_near, plane_of
 from grainmodes.complex_pairs.refinement import SHARP, nearly_meeting, sharpened
 from grainmodes.kernels.laws import interaction
+from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.protocols.pair_tracking.exceptional_points import fitted
 from grainmodes.relaxation.balance import Balance
 from grainmodes.response.stability import complex_pairs
@@ -36,7 +37,7 @@ def sheared() -> Balance:
 
 @pytest.fixture(scope="module")
 def matrix(sheared) -> sparse.csr_array:
-    return mass_weighted(sheared)
+    return mass_weighted_jacobian(sheared.matrix, sheared.backbone.mass)
 
 
 def path(size: int, asymmetry: float, steps: int = 8) -> list[sparse.csr_array]:
@@ -77,7 +78,8 @@ def test_a_condition_is_what_an_error_grows_by(matrix):
 def test_a_symmetric_jacobian_has_no_pair():
     _, packing = reference("hertz_n64_phi0.900_seed1")
     at_rest = Balance.of(packing, interaction(smoothed_coulomb(reference(SHEARED)[0])))
-    detector, matrix = Carried(), mass_weighted(at_rest)
+    detector = Carried()
+    matrix = mass_weighted_jacobian(at_rest.matrix, at_rest.backbone.mass)
     assert [len(detector.find(loaded(matrix)).value) for _ in range(2)] == [0, 0]
     assert not detector.dense
     assert len(dense_pairs(matrix).value) == 0

@@ -12,13 +12,13 @@ from grainmodes.complex_pairs import disc_sweep
 from grainmodes.complex_pairs.arnoldi_discs import REACH, Disc, Discs
 from grainmodes.complex_pairs.definition import (
     dense_pairs,
-    mass_weighted,
     quotients,
     selected,
     translations,
 )
 from grainmodes.complex_pairs.disc_sweep import _shifts_above, pairs_by_windows
 from grainmodes.kernels.laws import interaction
+from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.quasistatic import first_balance, step_to
@@ -33,7 +33,7 @@ def sheared(coefficient: float) -> sparse.csr_array:
     now = first_balance(replace(packing, mass=np.ones(packing.n)), rule, CHOICES)
     for step in range(1, 21):
         now, _ = step_to(1e-3 * step, now, CHOICES)
-    return mass_weighted(now)
+    return mass_weighted_jacobian(now.matrix, now.backbone.mass)
 
 
 @pytest.mark.parametrize("coefficient", [0.5, 10.0])

@@ -13,16 +13,15 @@ from grainmodes.complex_pairs.definition import (
     Loaded,
     Pairs,
     dense_pairs,
-    mass_weighted,
     on_all_grains,
     translations,
 )
 from grainmodes.complex_pairs.disc_sweep import pairs_by_windows
 from grainmodes.complex_pairs.matching import Planes
 from grainmodes.complex_pairs.plane import plane_of
+from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
 from grainmodes.protocols.pair_tracking.exceptional_points import Side
 from grainmodes.relaxation.balance import Balance
-from grainmodes.response.stability import INERTIA
 
 
 class Detector(Protocol):
@@ -86,7 +85,7 @@ class Seen:
 
     def motions(self, places: np.ndarray) -> np.ndarray:
         """q = M^(−1/2) u of some of the pairs, (N, 3, P) complex."""
-        scale = 1.0 / np.sqrt(self.balance.packing.mass[:, None] * INERTIA)
+        scale = 1.0 / root_mass(self.balance.packing.mass)
         return self.pairs.right[:, places].reshape(*scale.shape, -1) * scale[:, :, None]
 
     def side(self, place: int) -> Side:
@@ -96,12 +95,14 @@ class Seen:
             np.stack([of[held, place].real, of[held, place].imag], axis=1)
             for of in (self.pairs.right, self.pairs.left)
         )
-        return Side(self.balance, plane_of(mass_weighted(self.balance), right, left))
+        matrix = mass_weighted_jacobian(self.balance.matrix, self.balance.backbone.mass)
+        return Side(self.balance, plane_of(matrix, right, left))
 
 
 def seen_by(detector: Detector, balance: Balance) -> Seen:
     """A state with the pairs that a detector finds in it."""
-    null = translations(balance.backbone.mass)
-    found = detector.find(Loaded(mass_weighted(balance), null, balance.held))
+    mass = balance.backbone.mass
+    matrix = mass_weighted_jacobian(balance.matrix, mass)
+    found = detector.find(Loaded(matrix, translations(mass), balance.held))
     right, left = (on_all_grains(of, balance.held) for of in (found.right, found.left))
     return Seen(balance, Pairs(found.value, right, left))

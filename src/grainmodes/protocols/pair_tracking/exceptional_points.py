@@ -27,8 +27,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.complex_pairs.definition import mass_weighted
 from grainmodes.complex_pairs.plane import SETTLED, Plane, plane_near
+from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.quasistatic import step_to
 from grainmodes.protocols.shear.state import network_changes
@@ -118,7 +118,9 @@ def followed(start: Side, balance: Balance) -> Side | None:
     if not np.array_equal(start.balance.held, balance.held):
         return None
     try:
-        plane = plane_near(mass_weighted(balance), start.plane)
+        plane = plane_near(
+            mass_weighted_jacobian(balance.matrix, balance.backbone.mass), start.plane
+        )
     except ArithmeticError:
         return None
     same = plane.residual <= SETTLED and plane.part_of(start.plane) > TURNED

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy.linalg
 
-from grainmodes.complex_pairs.definition import mass_weighted
+from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.protocols.pair_tracking.exceptional_points import Side, followed
 from grainmodes.relaxation.balance import Balance
 
@@ -69,6 +69,7 @@ def _products(state: Balance, mode: int) -> Products:
 
 def _modes(state: Balance) -> tuple[np.ndarray, np.ndarray]:
     """All eigenvalues of K, λ_r ascending, with eigenvectors of norm 1."""
-    values, vectors = scipy.linalg.eig(mass_weighted(state).toarray())
+    matrix = mass_weighted_jacobian(state.matrix, state.backbone.mass)
+    values, vectors = scipy.linalg.eig(matrix.toarray())
     order = np.lexsort((values.imag, values.real))
     return values[order], vectors[:, order]

@@ -17,10 +17,10 @@ import numpy as np
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.contacts import Contacts, rattlers
 from grainmodes.packing.forces import forces_on_i, sliding, stress
+from grainmodes.packing.mass_weighted import generalized_mass
 from grainmodes.packing.state import Packing, find_contacts, nonaffine_motion
 from grainmodes.relaxation.balance import most_loose
 from grainmodes.relaxation.dynamics import Motion
-from grainmodes.response.stability import INERTIA
 
 
 class Record(NamedTuple):
@@ -48,7 +48,6 @@ def record(time: float, now: Motion, start: Packing, interaction: Interaction) -
     packing, contacts = now.packing, find_contacts(now.packing)
     moved = nonaffine_motion(start, packing)
     sigma = stress(packing, contacts, interaction)
-    inertia = packing.mass[:, None] * INERTIA
     return Record(
         time,
         float((moved[:, :2] ** 2).sum(axis=1).mean()),
@@ -59,7 +58,7 @@ def record(time: float, now: Motion, start: Packing, interaction: Interaction) -
         2.0 * len(contacts.i) / packing.n,
         int(sliding(contacts, interaction).sum()),
         changes(contacts, find_contacts(start), packing.n, interaction),
-        0.5 * float((inertia * now.velocity**2).sum()),
+        0.5 * float((generalized_mass(packing.mass) * now.velocity**2).sum()),
     )
 
 

@@ -16,11 +16,11 @@ import numpy as np
 from grainmodes.kernels.damping import Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Interaction
+from grainmodes.packing.mass_weighted import generalized_mass
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.protocols.shear.one_sided import SLIPPING, Oscillation, growing_mode
 from grainmodes.relaxation.dynamics import Motion, move
 from grainmodes.relaxation.newton import moved_by, slipped
-from grainmodes.response.stability import INERTIA
 
 SIZE = 1e-11
 """a in d: 1e3 times what a balance of max|F̃| = 1e-14 leaves over in other modes."""
@@ -64,10 +64,10 @@ def _period(
     motion: Motion, interaction: Interaction, time_step: float, steps: int
 ) -> tuple[float, Motion]:
     """The kinetic energy averaged over a period, and the motion after it."""
-    inertia, energy = motion.packing.mass[:, None] * INERTIA, 0.0
+    mass, energy = generalized_mass(motion.packing.mass), 0.0
     for _ in range(LOOKS):
         motion = _moved(motion, interaction, time_step, steps // LOOKS)
-        energy += 0.5 * float(np.sum(inertia * motion.velocity**2)) / LOOKS
+        energy += 0.5 * float(np.sum(mass * motion.velocity**2)) / LOOKS
     return energy, motion
 
 

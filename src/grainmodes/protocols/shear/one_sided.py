@@ -27,8 +27,9 @@ import scipy.linalg
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.contacts import Contacts
 from grainmodes.packing.jacobian import assemble, stiffness_of
+from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
 from grainmodes.packing.state import Packing
-from grainmodes.response.stability import INERTIA, REAL
+from grainmodes.response.stability import REAL
 
 SLIPPING, STICKING = 1.0, -1.0
 
@@ -88,7 +89,7 @@ def growing_mode(
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
     values, vectors = scipy.linalg.eig(_scaled(packing, contacts, interaction, side))
-    u = vectors[:, _fastest(values)].reshape(-1, 3) / _root_of_mass(packing)
+    u = vectors[:, _fastest(values)].reshape(-1, 3) / root_mass(packing.mass)
     return u / np.abs(u).max()
 
 
@@ -100,11 +101,5 @@ def _fastest(values: np.ndarray) -> int:
 def _scaled(packing: Packing, contacts: Contacts, interaction: Interaction, side: float):
     """M^(−1/2) J M^(−1/2) on one side, dense (3N, 3N)."""
     stiffness = stiffness_of(beside_threshold(contacts, side), interaction)
-    matrix = assemble(stiffness, contacts.i, contacts.j, packing.n).toarray()
-    scale = 1.0 / _root_of_mass(packing).ravel()
-    return scale[:, None] * matrix * scale
-
-
-def _root_of_mass(packing: Packing) -> np.ndarray:
-    """M^(1/2) of (x, y, ℓ) of every grain, (N, 3)."""
-    return np.sqrt(packing.mass[:, None] * INERTIA)
+    matrix = assemble(stiffness, contacts.i, contacts.j, packing.n)
+    return mass_weighted_jacobian(matrix, packing.mass).toarray()

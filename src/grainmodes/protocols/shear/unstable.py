@@ -25,8 +25,8 @@ import numpy as np
 
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.jacobian import jacobian
+from grainmodes.packing.mass_weighted import generalized_mass
 from grainmodes.packing.state import Packing, find_contacts
-from grainmodes.response.stability import INERTIA
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class Unstable:
     def residual(self, interaction: Interaction) -> float:
         """max|M⁻¹J u − λ u| over |λ| max|u|."""
         matrix = jacobian(self.packing, find_contacts(self.packing), interaction)
-        inertia = (self.packing.mass[:, None] * INERTIA).ravel()
+        mass = generalized_mass(self.packing.mass).ravel()
         vector = self.mode.ravel()
-        off = matrix @ vector / inertia - self.eigenvalue * vector
+        off = matrix @ vector / mass - self.eigenvalue * vector
         return float(np.abs(off).max() / (abs(self.eigenvalue) * np.abs(vector).max()))
