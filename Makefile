@@ -1,29 +1,37 @@
 # make study      packings, spectra and figures of config/default.yaml
-# make test       the tests (minutes)      make test-all   every test, the slow ones too
+# make test       the tests, on all cores (minutes)
+# make test-slow  the slow physics and large systems      make test-all   both
 # make pardiso    add a faster sparse factorisation to the environment (x86-64, MKL's licence)
 # make lint       style and the walls between modules
 # make clean      forget results, compiled kernels and Snakemake's bookkeeping
 #
 # Needed on the machine: Python >= 3.11 with pip, a C compiler, make. CONFIG=config/paper_a.yaml
-# chooses another scene, JOBS=8 more jobs at once, PYTHON=python3.12 another Python for .venv.
+# chooses another scene, JOBS=8 more jobs at once, WORKERS=4 more processes that test,
+# PYTHON=python3.12 another Python for .venv.
 
 PYTHON ?= python3
 JOBS ?= 2
+WORKERS ?= auto
 CONFIG ?=
 BIN := .venv/bin
 READY := .venv/ready
 
-.PHONY: study test test-all pardiso lint clean
+# The tests of one file, or of one group named in tests/conftest.py, run in one process.
+PYTEST := $(BIN)/python -m pytest --numprocesses $(WORKERS) --dist loadgroup --no-loadscope-reorder
+
+.PHONY: study test test-slow test-all pardiso lint clean
 .NOTPARALLEL:
 
 study: $(READY)
 	$(BIN)/python workflow/scripts/study.py -j$(JOBS) $(if $(CONFIG),--configfile $(CONFIG))
 
 test: $(READY)
-	$(BIN)/python -m pytest
+	$(PYTEST)
 
-test-all: $(READY)
-	$(BIN)/python -m pytest -m ""
+test-slow: $(READY)
+	$(PYTEST) -m slow
+
+test-all: test test-slow
 
 pardiso: $(READY)
 	$(BIN)/python -m pip install --quiet --requirement requirements-pardiso.lock
