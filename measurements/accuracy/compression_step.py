@@ -35,7 +35,11 @@ from scipy.stats import ks_2samp
 from grainmodes.kernels.laws import interaction
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.protocols.compression.trajectory import advanced, balanced, placed
+from grainmodes.protocols.compression.trajectory import (
+    compress_along_grid,
+    compress_to,
+    place_at_random,
+)
 from grainmodes.response.moduli import rigidity
 from grainmodes.stages.rows import SAMPLE_ERRORS
 from grainmodes.stages.samples import packed
@@ -76,8 +80,8 @@ def ensemble(n: int, seeds: int, protocol: Compression) -> Ensemble:
 
 def _sample(n: int, seed: int, protocol: Compression) -> tuple[float, float, float, float]:
     try:
-        grid = advanced(placed(n, seed, HERTZ, protocol), PHI, HERTZ, protocol)
-        packing = balanced(grid, PHI, HERTZ, protocol).packing
+        grid = compress_along_grid(place_at_random(n, seed, HERTZ, protocol), PHI, HERTZ, protocol)
+        packing = compress_to(grid, PHI, HERTZ, protocol).packing
         g = rigidity(packing, RULE).unloaded.g
     except SAMPLE_ERRORS:
         return (np.nan,) * 4

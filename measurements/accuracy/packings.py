@@ -5,7 +5,7 @@ from __future__ import annotations
 from grainmodes.kernels.laws import Hertz
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.compression import Compression
-from grainmodes.protocols.compression.trajectory import balanced, placed
+from grainmodes.protocols.compression.trajectory import compress_to, place_at_random
 
 HERTZ = Hertz(1.0)
 
@@ -20,7 +20,7 @@ def compressed(n: int, seed: int, phi: float, protocol: Compression = COARSE) ->
         CompressionError: it did not get there.
         ArithmeticError: its last balance was not found.
     """
-    relaxed = balanced(placed(n, seed, HERTZ, protocol), phi, HERTZ, protocol)
+    relaxed = compress_to(place_at_random(n, seed, HERTZ, protocol), phi, HERTZ, protocol)
     if not relaxed.converged:
         raise ArithmeticError(f"N = {n}, seed {seed}: max|F| = {relaxed.max_force:.1e}")
     return relaxed.packing

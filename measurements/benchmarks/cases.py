@@ -26,7 +26,11 @@ from grainmodes.parameters.grid import checkpoints_up_to, phi_at_step
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.compression.trajectory import advanced, balanced, placed
+from grainmodes.protocols.compression.trajectory import (
+    compress_along_grid,
+    compress_to,
+    place_at_random,
+)
 from grainmodes.protocols.pair_tracking.detection import DETECTORS, seen_by
 from grainmodes.protocols.pair_tracking.tracking import PairWalk
 from grainmodes.protocols.shear.quasistatic import first_balance, step_to
@@ -51,7 +55,7 @@ def cpu(work, *arguments) -> float:
 
 def quenched(n: int, phi: float, tolerance: float = 1e-7):
     """A packing at φ straight from random placement: good enough to time kernels on."""
-    packing = placed(n, 0, HERTZ, PROTOCOL).packing.at(phi)
+    packing = place_at_random(n, 0, HERTZ, PROTOCOL).packing.at(phi)
     return relax_loosely(packing, HERTZ, tolerance, 0.0, 20_000).packing
 
 
@@ -62,7 +66,9 @@ def balanced_at(n: int, phi: float):
 
 def compression_in_large_steps(n: int) -> float:
     """φ 0.80 → 0.90 in 100 steps of 1e-3, each to max|F| < 1e-10."""
-    start = advanced(placed(n, 0, HERTZ, PROTOCOL), 0.8, HERTZ, PROTOCOL).packing
+    start = compress_along_grid(
+        place_at_random(n, 0, HERTZ, PROTOCOL), 0.8, HERTZ, PROTOCOL
+    ).packing
 
     def climb(packing, steps):
         for k in range(1, steps + 1):
@@ -111,13 +117,13 @@ def _step(n: int, law: ContactLaw, damping, time_step: float) -> float:
 
 def trajectory(n: int) -> float:
     """One trajectory with all eight φ of 0.83 … 0.90, each packing to 1e-14."""
-    balanced(placed(16, 0, HERTZ, PROTOCOL), 0.9, HERTZ, PROTOCOL)
+    compress_to(place_at_random(16, 0, HERTZ, PROTOCOL), 0.9, HERTZ, PROTOCOL)
 
     def climb():
-        now = placed(n, 0, HERTZ, PROTOCOL)
+        now = place_at_random(n, 0, HERTZ, PROTOCOL)
         for phi in np.round(np.arange(0.83, 0.905, 0.01), 2):
-            now = advanced(now, phi, HERTZ, PROTOCOL)
-            assert balanced(now, phi, HERTZ, PROTOCOL).converged
+            now = compress_along_grid(now, phi, HERTZ, PROTOCOL)
+            assert compress_to(now, phi, HERTZ, PROTOCOL).converged
 
     return cpu(climb)
 

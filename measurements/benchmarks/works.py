@@ -19,7 +19,7 @@ from grainmodes.cli import main
 from grainmodes.cost.work import USUAL_STEP
 from grainmodes.dataset.files import read_block, write_block
 from grainmodes.parameters.grid import checkpoints_up_to
-from grainmodes.protocols.compression.trajectory import advanced, placed
+from grainmodes.protocols.compression.trajectory import compress_along_grid, place_at_random
 from grainmodes.relaxation.frictionless import relax_fast
 from grainmodes.stages.rows import block_of
 from grainmodes.stages.samples import packed
@@ -84,7 +84,9 @@ def climb(n: int) -> list[float]:
     """CPU seconds from random placement to the lowest checkpoint, then from each to the next."""
     now, clock = None, [time.process_time()]
     for phi in checkpoints_up_to(PHI):
-        now = advanced(now or placed(n, 0, HERTZ, PROTOCOL), phi, HERTZ, PROTOCOL)
+        now = compress_along_grid(
+            now or place_at_random(n, 0, HERTZ, PROTOCOL), phi, HERTZ, PROTOCOL
+        )
         clock.append(time.process_time())
     return [after - before for before, after in pairwise(clock)]
 

@@ -13,7 +13,11 @@ from grainmodes.kernels.laws import Hertz
 from grainmodes.packing.state import Packing, PackingError, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.strain import Shear, StepStrain
-from grainmodes.protocols.compression.trajectory import advanced, balanced, placed
+from grainmodes.protocols.compression.trajectory import (
+    compress_along_grid,
+    compress_to,
+    place_at_random,
+)
 from grainmodes.protocols.shear.run import Walk
 from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation.balance import Balance
@@ -76,8 +80,8 @@ def test_a_seed_that_needs_ten_times_the_usual_iterations():
     law = Hertz(1.0)
 
     def iterations(seed: int) -> int:
-        start = advanced(placed(16, seed, law, COARSE), 0.84, law, COARSE)
-        relaxed = balanced(start, 0.84, law, COARSE)
+        start = compress_along_grid(place_at_random(16, seed, law, COARSE), 0.84, law, COARSE)
+        relaxed = compress_to(start, 0.84, law, COARSE)
         assert relaxed.converged and relaxed.max_force < 1e-14
         return relaxed.iterations - start.iterations
 

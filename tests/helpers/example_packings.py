@@ -17,7 +17,11 @@ from grainmodes.packing.contacts import Contacts, History
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.protocols.compression.trajectory import advanced, balanced, placed
+from grainmodes.protocols.compression.trajectory import (
+    compress_along_grid,
+    compress_to,
+    place_at_random,
+)
 from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
 
 DATA = Path(__file__).parents[1] / "data"
@@ -166,8 +170,10 @@ BACKENDS = ["superlu", *(["pardiso"] if find_spec("pypardiso") else [])]
 def quenched(n: int, phi: float, seed: int = 0) -> Packing:
     """A packing in balance straight from random placement; near jamming it is compressed to φ."""
     law, protocol = Hertz(1.0), Compression(phi_step=1e-3)
-    start = placed(n, seed, law, protocol)
+    start = place_at_random(n, seed, law, protocol)
     if phi < 0.87:
-        return balanced(advanced(start, phi, law, protocol), phi, law, protocol).packing
+        return compress_to(
+            compress_along_grid(start, phi, law, protocol), phi, law, protocol
+        ).packing
     loose = relax_loosely(start.packing.at(phi), law, 1e-7, 0.0, 100_000).packing
     return relax_fast(loose, law, 1e-14, 1_000_000).packing

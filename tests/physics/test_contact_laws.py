@@ -10,7 +10,7 @@ from grainmodes.packing.state import Packing
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.compression.trajectory import balanced, placed
+from grainmodes.protocols.compression.trajectory import compress_to, place_at_random
 from grainmodes.protocols.law_comparison.comparison import Seen, variant
 
 KT = 2 / 7
@@ -25,7 +25,7 @@ def grains_of_c(normal: str) -> Packing:
     """64 grains of diameters 1 and 1.4, every mass 1."""
     protocol = Compression(phi_step=1e-2, large_diameter=1.4, masses="equal")
     law = interaction(ContactLaw(normal)).normal
-    return balanced(placed(64, SEED[normal], law, protocol), 0.9, law, protocol).packing
+    return compress_to(place_at_random(64, SEED[normal], law, protocol), 0.9, law, protocol).packing
 
 
 @cache

@@ -14,7 +14,7 @@ from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import StepStrain
-from grainmodes.protocols.compression.trajectory import balanced, placed
+from grainmodes.protocols.compression.trajectory import compress_to, place_at_random
 from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import spectrum
@@ -33,7 +33,7 @@ def compressed(
     """A packing at φ, compressed in coarse steps."""
     protocol = Compression(relaxation=relaxation, phi_step=1e-2, **grains)
     law = elastic(normal, 0.0).normal
-    relaxed = balanced(placed(n, seed, law, protocol), phi, law, protocol)
+    relaxed = compress_to(place_at_random(n, seed, law, protocol), phi, law, protocol)
     assert relaxed.converged
     return relaxed.packing
 

@@ -10,7 +10,11 @@ from grainmodes.packing.contacts import rattlers
 from grainmodes.packing.forces import stress
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
-from grainmodes.protocols.compression.trajectory import advanced, balanced, placed
+from grainmodes.protocols.compression.trajectory import (
+    compress_along_grid,
+    compress_to,
+    place_at_random,
+)
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.newton import newton
 from grainmodes.response.moduli import rigidity
@@ -29,9 +33,9 @@ def ensemble(relaxation: str) -> dict[str, np.ndarray]:
 
 
 def sample(seed: int, protocol: Compression) -> dict[str, float]:
-    start = advanced(placed(N, seed, NORMAL, protocol), 0.80, NORMAL, protocol)
-    grid = advanced(start, PHI, NORMAL, protocol)
-    relaxed = balanced(grid, PHI, NORMAL, protocol)
+    start = compress_along_grid(place_at_random(N, seed, NORMAL, protocol), 0.80, NORMAL, protocol)
+    grid = compress_along_grid(start, PHI, NORMAL, protocol)
+    relaxed = compress_to(grid, PHI, NORMAL, protocol)
     core = backbone(relaxed.packing)
     contacts = find_contacts(core)
     return {
@@ -70,7 +74,9 @@ def test_damped_dynamics_and_newton_reach_the_same_state(kt):
     """Twenty packings, stepped by 1e-6: the same places, spins and slips."""
     protocol, law = Compression(phi_step=1e-2), elastic("hertz", kt)
     for seed in range(20):
-        core = backbone(balanced(placed(24, seed, NORMAL, protocol), 0.9, NORMAL, protocol).packing)
+        core = backbone(
+            compress_to(place_at_random(24, seed, NORMAL, protocol), 0.9, NORMAL, protocol).packing
+        )
         stepped = core.sheared(1e-6)
         quick = newton(stepped, law, 1e-14, 40)
         slow = relax_damped(stepped, law, Dashpot(1.0), 1e-2, 1e-14, 50_000_000)

@@ -12,7 +12,7 @@ from grainmodes.packing.contacts import rattlers
 from grainmodes.packing.forces import stress
 from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.compression import Compression
-from grainmodes.protocols.compression.trajectory import balanced, placed
+from grainmodes.protocols.compression.trajectory import compress_to, place_at_random
 from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import spectrum
 
@@ -30,7 +30,9 @@ COMPRESSED = [
 @pytest.mark.parametrize(("n", "seed", "pressure", "g", "g_loaded"), COMPRESSED)
 def test_seeds_keep_their_packings(n, seed, pressure, g, g_loaded):
     law, protocol = elastic("hertz", 1e-2), Compression(phi_step=1e-2)
-    packing = balanced(placed(n, seed, law.normal, protocol), 0.9, law.normal, protocol).packing
+    packing = compress_to(
+        place_at_random(n, seed, law.normal, protocol), 0.9, law.normal, protocol
+    ).packing
     sigma, moduli = stress(packing, find_contacts(packing), law), rigidity(packing, law)
     found = [-np.trace(sigma) / 2, moduli.unloaded.g, moduli.loaded.g]
     np.testing.assert_allclose(found, [pressure, g, g_loaded], rtol=1e-10)

@@ -11,7 +11,7 @@
 A probe that fails leaves NaN in its place and its sentence among the failures of its seed; the row
 counts as converged all the same. NaN is also what does not exist: at k_T = 0 there is no velocity
 Verlet and no compression with friction, and dense matrices stop at `DENSE` and `COMPRESSED` grains.
-A packing that is not jammed has g = 0, and loosened and compressed again it stays so.
+A packing that is not jammed has g = 0, and expanded_to_contact and compressed again it stays so.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.strain import StepStrain
-from grainmodes.protocols.compression.frictional import frictional_compression
+from grainmodes.protocols.compression.frictional_compression import frictional_compression
 from grainmodes.protocols.shear.step_strain import forward_rigidity
 from grainmodes.relaxation.accuracy import step_orders
 from grainmodes.response.mode_sum import ModeRigidity

@@ -17,7 +17,11 @@ from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
-from grainmodes.protocols.compression.trajectory import advanced, balanced, placed
+from grainmodes.protocols.compression.trajectory import (
+    compress_along_grid,
+    compress_to,
+    place_at_random,
+)
 from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.response.moduli import Moduli, rigidity
 from grainmodes.stages.rows import block_of, described, response_block
@@ -48,11 +52,11 @@ def compress_block(
 
     def sample(number: int) -> dict[str, object]:
         before = (
-            placed(n, seeds[number], law, compression)
+            place_at_random(n, seeds[number], law, compression)
             if start is None
             else trajectory_of(start, number)
         )
-        return checkpoint(advanced(before, phi, law, compression))
+        return checkpoint(compress_along_grid(before, phi, law, compression))
 
     attributes = described("trajectories", config, n=n, phi=phi)
     failures = {} if start is None else start.mapping("failures")
@@ -66,8 +70,8 @@ def packing_block(start: Block, phi: float, compression: Compression, normal: st
     check_start(start, config, phi)
 
     def sample(number: int) -> dict[str, object]:
-        grid = advanced(trajectory_of(start, number), phi, law, compression)
-        relaxed = balanced(grid, phi, law, compression)
+        grid = compress_along_grid(trajectory_of(start, number), phi, law, compression)
+        relaxed = compress_to(grid, phi, law, compression)
         if not relaxed.converged:
             raise ArithmeticError(
                 f"max|F| = {relaxed.max_force:.1e} after {relaxed.iterations} iterations"

@@ -22,7 +22,11 @@ from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import Shear, StepStrain
-from grainmodes.protocols.compression.trajectory import advanced, balanced, placed
+from grainmodes.protocols.compression.trajectory import (
+    compress_along_grid,
+    compress_to,
+    place_at_random,
+)
 from grainmodes.protocols.shear.run import Walk
 from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation import newton
@@ -57,7 +61,9 @@ def arrays_of(kernel) -> set[str]:
 
 
 def test_fire_holds_no_rotation_torque_or_history():
-    advanced(placed(16, 0, Hertz(1.0), Compression()), 0.8, Hertz(1.0), Compression())
+    compress_along_grid(
+        place_at_random(16, 0, Hertz(1.0), Compression()), 0.8, Hertz(1.0), Compression()
+    )
     assert arrays_of(fire) == PLACES
     laws = {str(types[6]) for types in fire.overloads}
     assert laws <= {"Hertz(float64 x 1)", "Harmonic(float64 x 1)"}
@@ -89,8 +95,8 @@ TANGENTIAL = (
 def test_without_friction_nothing_tangential_is_touched(monkeypatch):
     refuse(monkeypatch, *TANGENTIAL)
     law, protocol = Hertz(1.0), Compression(phi_step=1e-3)
-    start = advanced(placed(16, 1, law, protocol), 0.9, law, protocol)
-    packing = balanced(start, 0.9, law, protocol).packing
+    start = compress_along_grid(place_at_random(16, 1, law, protocol), 0.9, law, protocol)
+    packing = compress_to(start, 0.9, law, protocol).packing
     assert net_force(packing, find_contacts(packing), NO_FRICTION).shape == (16, 2)
     assert rigidity(packing, NO_FRICTION).unloaded.displacement.shape[1] == 2
     assert step_strain(packing, NO_FRICTION, StepStrain()).converged

@@ -16,7 +16,10 @@ from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.strain import StepStrain
-from grainmodes.protocols.compression.frictional import frictional_compression, loosened
+from grainmodes.protocols.compression.frictional_compression import (
+    expanded_to_contact,
+    frictional_compression,
+)
 from grainmodes.protocols.shear.step_strain import forward_rigidity
 from grainmodes.relaxation.accuracy import step_orders
 from grainmodes.response.mode_sum import ModeRigidity, mode_sum
@@ -106,7 +109,7 @@ def test_a_step_of_velocity_verlet_is_as_right_as_paper_a_says(name, kt):
 
 
 def test_a_loosened_packing_touches_in_one_place():
-    packing = loosened(crowd(71, slip=0.3))
+    packing = expanded_to_contact(crowd(71, slip=0.3))
     assert packing.history is None and packing.rotation is None
     assert len(find_contacts(replace(packing, box_length=packing.box_length * (1 - 1e-12))).i) == 1
     assert len(find_contacts(replace(packing, box_length=packing.box_length * (1 + 1e-12))).i) == 0

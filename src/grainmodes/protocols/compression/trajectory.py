@@ -1,12 +1,12 @@
-"""Compression from random placement to a packing in force balance: A, Sec. II and Appendix A.
+"""Compression from a random placement to a packing in force balance: A, Sec. II and Appendix A.
 
-Grains at random without overlap at φ = 0.6; φ is raised on the grid φ_k = 0.6 + k Φ by shrinking
-the box affinely, L → L √(φ_k/φ_{k+1}) (A1), (A2), and the packing is relaxed after each step. With
-positions stored as fractions of L, a step changes L and nothing else.
+The grains start at random without overlap at φ = 0.6. Then φ is raised on the grid
+φ_k = 0.6 + k Φ: each step shrinks the box affinely, L → L √(φ_k/φ_{k+1}) (A1), (A2), and relaxes
+the packing. Positions are stored as fractions of L, so the affine part changes L and nothing else.
 
-A target is reached from the highest grid point below it on a branch of its own, with its final
-balance; the trajectory itself goes on from the grid. So a packing depends on (N, seed, φ, protocol)
-alone, not on which other φ a study asks for.
+A target φ is reached on a branch of its own, which starts from the highest grid point below the
+target and relaxes to the final balance. The trajectory itself goes on from the grid. So a packing
+depends on (N, seed, φ, protocol) alone, and not on which other φ a study contains.
 """
 
 from __future__ import annotations
@@ -29,16 +29,24 @@ from grainmodes.relaxation.frictionless import (
 from grainmodes.relaxation.result import Relaxed
 
 SIZE_RATIO = 1.4
-"""Large diameter over small, half of the grains each (A, Sec. II; C, Sec. IV)."""
+"""Diameter of the large grains over that of the small ones; half of the grains are large
+(A, Sec. II; C, Sec. IV)."""
+
+PHI_ROUNDING = 1e-12
+"""Difference of two φ that counts as rounding."""
 
 
 class CompressionError(ArithmeticError):
-    """A compression that did not reach balance within the allowed iterations."""
+    """A compression did not reach its balance within the allowed iterations."""
 
 
 @dataclass(frozen=True)
 class Trajectory:
-    """Where a compression stands: on grid point `step`, last unjammed at `phi_jamming`."""
+    """A compression at grid point number `step`.
+
+    `phi_jamming` is the highest grid φ at which the packing was still unjammed, and `iterations`
+    the number of all iterations since the random placement.
+    """
 
     packing: Packing
     step: int
@@ -46,80 +54,84 @@ class Trajectory:
     iterations: int
 
 
-def placed(n: int, seed: int, normal, protocol: Compression) -> Trajectory:
-    """N grains at random, without overlap, at the initial φ.
+def place_at_random(n: int, seed: int, normal, compression: Compression) -> Trajectory:
+    """Place N grains at random, without overlap, at the initial φ.
 
-    Uniform points are pushed apart by FIRE until nothing touches. Grains are numbered along rows of
-    cells, so that neighbours in space are neighbours in memory.
+    FIRE pushes uniformly distributed points apart until no two grains touch. Grains are numbered
+    along rows of cells, so that neighbours in space are neighbours in memory.
+
+    Args:
+        normal: the compiled normal law, such as `Hertz(1.0)`.
 
     Raises:
-        CompressionError: overlaps remain.
+        CompressionError: some overlaps remain.
     """
     generator = np.random.default_rng(np.random.SeedSequence([n, seed]))
     points = generator.integers(-(2**63), 2**63, size=(2, n), dtype=np.int64)
-    large = protocol.large_diameter
+    large = compression.large_diameter
     sizes = np.where(np.arange(n) < n // 2, large, large / SIZE_RATIO)
     diameter = generator.permutation(sizes)
-    points = points[:, _rows_of_cells(points)]
-    mass = diameter**2 if protocol.masses == "area" else np.ones(n)
-    loose = Packing(points, diameter, mass, 1.0).at(protocol.initial_phi)
-    relaxed = relax_loosely(loose, normal, 1e-300, 0.0, protocol.max_iterations)
+    points = points[:, _order_along_rows(points)]
+    mass = diameter**2 if compression.masses == "area" else np.ones(n)
+    overlapping = Packing(points, diameter, mass, 1.0).at(compression.initial_phi)
+    relaxed = relax_loosely(overlapping, normal, 1e-300, 0.0, compression.max_iterations)
     if relaxed.max_force > 0.0:
         raise CompressionError(f"random placement of {n} grains kept overlaps")
-    return Trajectory(relaxed.packing, 0, protocol.initial_phi, relaxed.iterations)
+    return Trajectory(relaxed.packing, 0, compression.initial_phi, relaxed.iterations)
 
 
-def _rows_of_cells(points: np.ndarray) -> np.ndarray:
-    """Order of the grains along rows of cells about two diameters wide."""
+def _order_along_rows(points: np.ndarray) -> np.ndarray:
+    """Order of the points (2, N) along rows of cells about two diameters wide; (N,) int."""
     rows = max(1, math.isqrt(points.shape[1]) // 2)
     x, y = np.floor((points * 2.0**-64 + 0.5) * rows).astype(int)
     return np.lexsort((x, y))
 
 
-def advanced(start: Trajectory, phi: float, normal, protocol: Compression) -> Trajectory:
-    """The trajectory at the highest grid point not above φ.
+def compress_along_grid(
+    start: Trajectory, phi: float, normal, compression: Compression
+) -> Trajectory:
+    """Compress to the highest grid point that is not above φ.
 
     Raises:
         CompressionError: a step did not reach its balance.
     """
-    now = start
-    while phi_at_step(protocol.initial_phi, protocol.phi_step, now.step + 1) <= phi + 1e-12:
-        now = _next(now, normal, protocol)
-    return now
+    current = start
+    while True:
+        next_phi = phi_at_step(compression.initial_phi, compression.phi_step, current.step + 1)
+        if next_phi > phi + PHI_ROUNDING:
+            return current
+        current = _compress_one_step(current, next_phi, normal, compression)
 
 
-def _next(now: Trajectory, normal, protocol: Compression) -> Trajectory:
-    """One step Φ, relaxed."""
-    phi = phi_at_step(protocol.initial_phi, protocol.phi_step, now.step + 1)
-    relaxed = _relaxed_step(now.packing.at(phi), normal, protocol)
-    if relaxed.iterations >= protocol.max_iterations:
+def _compress_one_step(
+    before: Trajectory, phi: float, normal, compression: Compression
+) -> Trajectory:
+    """Compress to the next grid point and relax to the balance of the protocol there."""
+    packing, most = before.packing.at(phi), compression.max_iterations
+    if compression.relaxation == "fire":
+        relaxed = relax_fire(packing, normal, compression.force_tolerance, most)
+    else:
+        balance = compression.intermediate_balance
+        relaxed = relax_loosely(packing, normal, FLOPPY_FORCE, balance, most)
+    if relaxed.iterations >= most:
         raise CompressionError(
             f"phi = {phi}: max|F| = {relaxed.max_force:.1e} after {relaxed.iterations} iterations"
         )
-    floppy = unjammed(relaxed.packing, normal)
-    return Trajectory(
-        relaxed.packing,
-        now.step + 1,
-        phi if floppy else now.phi_jamming,
-        now.iterations + relaxed.iterations,
-    )
+    phi_jamming = phi if unjammed(relaxed.packing, normal) else before.phi_jamming
+    iterations = before.iterations + relaxed.iterations
+    return Trajectory(relaxed.packing, before.step + 1, phi_jamming, iterations)
 
 
-def _relaxed_step(packing: Packing, normal, protocol: Compression) -> Relaxed:
-    """The balance that the protocol asks for between two steps."""
-    if protocol.relaxation == "fire":
-        return relax_fire(packing, normal, protocol.force_tolerance, protocol.max_iterations)
-    return relax_loosely(
-        packing, normal, FLOPPY_FORCE, protocol.intermediate_balance, protocol.max_iterations
-    )
+def compress_to(start: Trajectory, phi: float, normal, compression: Compression) -> Relaxed:
+    """The packing at φ in its final balance, max|F| < F_Th, on a branch from the grid.
 
+    Its `iterations` count all iterations since the random placement.
 
-def balanced(start: Trajectory, phi: float, normal, protocol: Compression) -> Relaxed:
-    """The packing at φ, on a branch from the grid, in its final balance max|F| < F_Th.
-
-    `iterations` counts everything since the random placement.
+    Raises:
+        CompressionError: a step along the grid did not reach its balance.
     """
-    grid = advanced(start, phi, normal, protocol)
-    relax = relax_fire if protocol.relaxation == "fire" else relax_fast
-    final = relax(grid.packing.at(phi), normal, protocol.force_tolerance, protocol.max_iterations)
+    grid = compress_along_grid(start, phi, normal, compression)
+    relax = relax_fire if compression.relaxation == "fire" else relax_fast
+    packing = grid.packing.at(phi)
+    final = relax(packing, normal, compression.force_tolerance, compression.max_iterations)
     return replace(final, iterations=grid.iterations + final.iterations)
