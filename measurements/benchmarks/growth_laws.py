@@ -15,6 +15,7 @@ import yaml
 
 from grainmodes.cost.table import COSTS, REFERENCE
 from grainmodes.runtime.atomic import replaced
+from grainmodes.statistics.rounding import value_with_error
 
 LAST = 4
 """So many of the largest sizes are fitted: small ones are governed by overheads."""
@@ -88,9 +89,7 @@ def exponents(rows: pd.DataFrame) -> str:
 
 def spoken(fit: Fit) -> str:
     """An exponent with its error."""
-    if not np.isfinite(fit.p):
-        return "–"
-    return f"{fit.p:.2f}" + (f" ± {fit.p_error:.2f}" if np.isfinite(fit.p_error) else "")
+    return value_with_error(fit.p, fit.p_error) if np.isfinite(fit.p) else "–"
 
 
 def write(machine: str, rows: pd.DataFrame, path: Path) -> None:

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from grainmodes.claims.claim import NotAsked
-from grainmodes.claims.estimates import Estimate, mean
 from grainmodes.claims.samples import Samples
 from grainmodes.statistics import averages
+from grainmodes.statistics.estimates import Estimate, mean
 
 if TYPE_CHECKING:
     import xarray as xr

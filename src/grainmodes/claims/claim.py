@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from grainmodes.claims.estimates import Estimate
+from grainmodes.statistics.estimates import Estimate
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -165,11 +165,6 @@ def _judged(function: Callable, ensemble: xr.Dataset) -> tuple[Part, str, str]:
 def _summary(parts: list[Part], worst: Part) -> str:
     """How many parts share the verdict, and the worst of them by name, the worst first."""
     same = sorted((p for p in parts if p.verdict == worst.verdict), key=lambda part: part.inside)
-    named = "; ".join(f"{part.where}: {text(part.estimate)}" for part in same[:MOST_NAMED])
+    named = "; ".join(f"{part.where}: {part.estimate}" for part in same[:MOST_NAMED])
     rest = "; ..." if len(same) > MOST_NAMED else ""
     return f"{len(same)} of {len(parts)} {SENTENCE[worst.verdict]}: {named}{rest}."
-
-
-def text(estimate: Estimate) -> str:
-    """A number with its uncertainty, for a sentence."""
-    return f"{estimate.value:.3g} ± {estimate.error:.1g}"

@@ -13,6 +13,7 @@ import numpy as np
 
 from grainmodes.claims.claim import Verdict
 from grainmodes.runtime.atomic import replaced
+from grainmodes.statistics.rounding import value_with_error
 
 COLUMNS = [field.name for field in fields(Verdict)]
 
@@ -76,7 +77,7 @@ def _measured(verdict: Verdict) -> str:
     if not np.isfinite(verdict.measured):
         return "-"
     unit = "" if verdict.unit == "1" else f" {verdict.unit}"
-    return f"{verdict.measured:.3g} ± {verdict.uncertainty:.1g}{unit}"
+    return f"{value_with_error(verdict.measured, verdict.uncertainty)}{unit}"
 
 
 def _named(verdict: Verdict) -> str:

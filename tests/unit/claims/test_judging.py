@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_RESOLVED, Outcome, Part, claim
-from grainmodes.claims.estimates import Estimate, crossing, jackknife, mean, relative_difference
+from grainmodes.statistics.estimates import Estimate, crossing, jackknife, mean, relative_difference
 
 
 @pytest.mark.parametrize(

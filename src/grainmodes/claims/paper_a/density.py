@@ -20,11 +20,11 @@ from grainmodes.claims.bands import (
     modes,
     separable,
 )
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
-from grainmodes.claims.estimates import Estimate, mean
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
 from grainmodes.claims.paper_a.words import WEAK
 from grainmodes.claims.samples import TINY, Samples, at, richest, sizes
 from grainmodes.statistics import averages
+from grainmodes.statistics.estimates import Estimate, mean
 
 LOCALISED = 2.0
 """N p below which a mode sits on one grain."""
@@ -118,7 +118,7 @@ def towards_jamming(ensemble) -> Outcome:
     where = f"φ = {phis[0]:g} against {phis[-1]:g}, {at(kappa=kappa)}"
     return Outcome(
         [Part(f"band, {where}", down, 0.0), Part(f"plateau, {where}", wider, 0.0)],
-        f"The rotational band moves by {text(down)}, the plateau widens by {text(wider)} decades.",
+        f"The rotational band moves by {down}, the plateau widens by {wider} decades.",
     )
 
 

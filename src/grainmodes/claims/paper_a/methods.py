@@ -12,11 +12,11 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.claims.bands import spectrum_at
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
-from grainmodes.claims.estimates import Estimate, jackknife, mean
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
 from grainmodes.claims.samples import Samples, at, richest
 from grainmodes.statistics import averages
 from grainmodes.statistics.binning import occupation
+from grainmodes.statistics.estimates import Estimate, jackknife, mean
 
 SAME_DENSITY = 0.05
 """Area between two densities of states, over the area below one, that a figure does not show."""
@@ -58,7 +58,7 @@ def _densities(ensemble) -> Outcome:
     if "bin_count_hessian_printed" not in ensemble:
         return Outcome(parts)
     printed = {p: _area(samples, "bin_count_hessian_printed", p) for p in points}
-    listed = ", ".join(f"{text(area)} at {at(*point)}" for point, area in printed.items())
+    listed = ", ".join(f"{area} at {at(*point)}" for point, area in printed.items())
     return Outcome(parts, f"With k_N and k_T as printed in (H2) the area is {listed}.")
 
 

@@ -12,9 +12,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import Outcome, Part, claim, every, text
-from grainmodes.claims.estimates import Estimate, crossing, mean, relative_difference
+from grainmodes.claims.claim import Outcome, Part, claim, every
 from grainmodes.claims.samples import TINY, Samples, at, richest
+from grainmodes.statistics.estimates import Estimate, crossing, mean, relative_difference
 
 CROSSING = (1.6, 2.5)
 """Range of k_T/k_N that is 2 on A's grid, whose neighbours of 2 are 1 and 5."""
@@ -69,7 +69,7 @@ def _growth(samples: Samples, kappa: float, phis: list[float]) -> Part:
 
 
 def _crossings(zeros: dict[float, Estimate]) -> str:
-    listed = ", ".join(f"{text(zero)} at {at(phi)}" for phi, zero in zeros.items())
+    listed = ", ".join(f"{zero} at {at(phi)}" for phi, zero in zeros.items())
     return f"The unloaded G_NA crosses 0 at κ = {listed}."
 
 
@@ -82,5 +82,5 @@ def _loading(samples: Samples) -> str:
         "The sign belongs to the step, which does not load the tangential springs: with springs "
         "loaded g_NA = -aᵀJ⁺a/L² ≤ 0, positive in "
         f"{int((loaded > 0).sum())} of {int(np.isfinite(loaded).sum())} samples, and G_NA at "
-        f"{at(phi, kappa)} is {text(mean(loaded[-1]))} loaded, {text(mean(last))} unloaded."
+        f"{at(phi, kappa)} is {mean(loaded[-1])} loaded, {mean(last)} unloaded."
     )

@@ -13,10 +13,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
-from grainmodes.claims.estimates import Estimate, mean, relative_difference
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
 from grainmodes.claims.paper_a.words import LARGE, SAME, SMALL
 from grainmodes.claims.samples import TINY, Samples, at, richest
+from grainmodes.statistics.estimates import Estimate, mean, relative_difference
 
 LIMIT = 0.001
 """Relative difference to the frictionless G that counts as its limit."""
@@ -44,7 +44,7 @@ def not_proportional_to_distance(ensemble) -> Outcome:
         for kappa, beta in exponents.items()
         if kappa >= LARGE
     ]
-    listed = ", ".join(f"{text(beta)} at κ = {kappa:g}" for kappa, beta in exponents.items())
+    listed = ", ".join(f"{beta} at κ = {kappa:g}" for kappa, beta in exponents.items())
     return Outcome(parts, f"β is {listed}.")
 
 
@@ -104,7 +104,7 @@ def frictionless_limit(ensemble) -> Outcome:
     ]
     phi = with_limit[-1]
     approach = {k: _to_frictionless(samples, phi, k) for k in samples.kappas("g", phi, TINY, 1.0)}
-    listed = ", ".join(f"{text(value)} at κ = {kappa:g}" for kappa, value in approach.items())
+    listed = ", ".join(f"{value} at κ = {kappa:g}" for kappa, value in approach.items())
     return Outcome(parts, f"The difference at {at(phi)} is {listed}.")
 
 
@@ -142,5 +142,5 @@ def _gains(samples: Samples, phis: tuple[float, float]) -> str:
     """G(κ)/G(0) at the largest κ, at two area fractions."""
     kappa = samples.kappas("g", phis[-1])[-1]
     gains = {phi: _to_frictionless(samples, phi, kappa) for phi in phis}
-    listed = (f"{text(Estimate(g.value + 1, g.error))} at {at(phi)}" for phi, g in gains.items())
+    listed = (f"{Estimate(g.value + 1, g.error)} at {at(phi)}" for phi, g in gains.items())
     return f"G(κ = {kappa:g}) / G(0) is {' and '.join(listed)}."

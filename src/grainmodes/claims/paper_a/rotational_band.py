@@ -14,11 +14,11 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.claims.bands import Modes, per_sample
-from grainmodes.claims.claim import Outcome, Part, claim, every, text
-from grainmodes.claims.estimates import Estimate, jackknife, mean, relative_difference
+from grainmodes.claims.claim import Outcome, Part, claim, every
 from grainmodes.claims.paper_a.spectra import REGION, spectra_of, within
 from grainmodes.claims.samples import TINY, at
 from grainmodes.statistics import averages
+from grainmodes.statistics.estimates import Estimate, jackknife, mean, relative_difference
 
 SCALING = 0.01
 """Largest k_T/k_N for which A finds omega_R D to collapse."""
@@ -80,7 +80,7 @@ def _area_between(counts: np.ndarray, reference: np.ndarray) -> Estimate:
 def _peaks_and_chi_squared(peaks: dict[float, Estimate], counts: dict[float, np.ndarray]) -> str:
     first, *others = counts
     chi = (f"{_chi_squared(counts[k], counts[first]):.2g} at κ = {k:g}" for k in others)
-    listed = ", ".join(f"{text(peak)} at κ = {kappa:g}" for kappa, peak in peaks.items())
+    listed = ", ".join(f"{peak} at κ = {kappa:g}" for kappa, peak in peaks.items())
     return (
         f"The peak lies at ω/ω_R = {listed}. χ² per bin of two curves, their errors taken as "
         f"independent: {', '.join(chi)}."
@@ -110,9 +110,7 @@ def area_of_rotational_band(ensemble) -> Outcome:
         Part(at(phi, kappa), relative_difference(areas[kappa], areas[scaled[0]]), -0.05, 0.05)
         for kappa in scaled[1:]
     ]
-    shares = ", ".join(
-        f"{text(mean(area / (3 * samples.n)))} at κ = {k:g}" for k, area in areas.items()
-    )
+    shares = ", ".join(f"{mean(area / (3 * samples.n))} at κ = {k:g}" for k, area in areas.items())
     return Outcome(parts, f"∫ D dω over the rotational modes is {shares}.")
 
 

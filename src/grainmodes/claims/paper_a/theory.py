@@ -14,10 +14,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import Outcome, Part, claim, text
-from grainmodes.claims.estimates import Estimate, relative_difference
+from grainmodes.claims.claim import Outcome, Part, claim
 from grainmodes.claims.paper_a.words import SAME, SMALL
 from grainmodes.claims.samples import TINY, Samples, at, richest
+from grainmodes.statistics.estimates import Estimate, relative_difference
 
 
 @claim("A1", unit="1")
@@ -86,5 +86,5 @@ def translational_modes_suffice(ensemble) -> Outcome:
     ]
     above = samples.points("g_translational", 2.0 * SMALL)
     differences = {p: _relative(samples, "g_translational", "g", *p) for p in above}
-    listed = ", ".join(f"{text(value)} at {at(*point)}" for point, value in differences.items())
+    listed = ", ".join(f"{value} at {at(*point)}" for point, value in differences.items())
     return Outcome(parts, f"Above, the difference is {listed}." if listed else "")

@@ -25,10 +25,10 @@ from grainmodes.claims.bands import (
     separable,
 )
 from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, every
-from grainmodes.claims.estimates import Estimate, mean
 from grainmodes.claims.paper_a.spectra import REGION, spectra_of, within
 from grainmodes.claims.paper_a.words import WEAK
 from grainmodes.claims.samples import TINY, at, richest
+from grainmodes.statistics.estimates import Estimate, mean
 
 PURE = 0.9
 """psi above which a region counts as purely rotational or translational."""

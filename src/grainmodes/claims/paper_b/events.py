@@ -13,11 +13,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
-from grainmodes.claims.estimates import mean
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
 from grainmodes.claims.paper_b.sheared import SAME, harmonic, over_samples, sheared
 from grainmodes.claims.samples import at
 from grainmodes.ensemble.curves import Approach, Curve
+from grainmodes.statistics.estimates import mean
 
 PRECURSOR = 0.05
 """Relative change of λ_min before an event that would be a precursor; a square root gives 1."""
@@ -53,7 +53,7 @@ def jump_without_precursor(ensemble) -> Outcome:
         falls = np.concatenate([_trends(curve) for curve in of])
         size = over_samples(of, _size_of_jump)
         notes.append(
-            f"At {where} λ_min changes by {text(size)} of itself in an event, and before "
+            f"At {where} λ_min changes by {size} of itself in an event, and before "
             f"{(falls < -PRECURSOR).sum()} of {len(falls)} events it falls by more than 5 %."
         )
     return Outcome(_measured(parts, "λ_min on states before events"), " ".join(notes))
@@ -141,7 +141,7 @@ def quadrupole_of_rotations(ensemble) -> Outcome:
     for point in samples.points("event_quadrupole"):
         four, others = (_by_sample(samples.of(name, *point)) for name in POLES)
         parts.append(Part(at(*point), mean(four), low=0.5 * PURE))
-        excess = text(mean(four - others))
+        excess = mean(four - others)
         notes.append(f"At {at(*point)} p_2 exceeds the mean of p_1, p_3 and p_4 by {excess}.")
     return Outcome(_measured(parts, "events"), " ".join(notes))
 
@@ -174,7 +174,7 @@ def contacts_at_events(ensemble) -> Outcome:
         opened, closed, again = (int(of[happened].sum()) for of in changes)
         notes.append(
             f"In {happened.sum()} events at {at(*point)} {opened} contacts opened, {closed} closed "
-            f"and {again} did both; in {text(mean(1.0 - _share(lasting)))} of the events of a "
+            f"and {again} did both; in {mean(1.0 - _share(lasting))} of the events of a "
             "sample the network is the same before and after."
         )
     return Outcome(_measured(parts, "events"), " ".join(notes))

@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
-from grainmodes.claims.estimates import mean
 from grainmodes.claims.paper_b.sheared import SAME, harmonic
 from grainmodes.claims.samples import Samples, at
+from grainmodes.statistics.estimates import mean
 
 EXACT = -12.0
 """log10 of max|J - Jᵀ| / max|J| below which it is rounding."""

@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from grainmodes.claims.claim import NotAsked
-from grainmodes.claims.estimates import Estimate, mean
 from grainmodes.claims.samples import Samples, at, richest
 from grainmodes.ensemble import normal_law
 from grainmodes.ensemble.curves import Curve, curves
+from grainmodes.statistics.estimates import Estimate, mean
 
 SAME = 0.01
 """Relative difference of two numbers that a figure of B does not show."""

@@ -15,11 +15,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
-from grainmodes.claims.estimates import Estimate, complete, mean, relative_difference
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
 from grainmodes.claims.paper_b.sheared import SAME, harmonic, over_samples, sheared
 from grainmodes.claims.samples import at
 from grainmodes.ensemble.curves import Curve, even_bins
+from grainmodes.statistics.estimates import Estimate, complete, mean, relative_difference
 
 BINS = 10
 """Parts of the whole strain in which mean rigidities are compared."""
@@ -53,7 +53,7 @@ def theory_is_simulation(ensemble) -> Outcome:
             off = over_samples(of, _of_changed_steps)
             notes.append(
                 f"In {100.0 * loud.value:.2g} % of the steps without an event at {where} contacts "
-                f"open, close or let go of their spring; there the step is off by {text(off)} of "
+                f"open, close or let go of their spring; there the step is off by {off} of "
                 "its size."
             )
     return Outcome(parts, " ".join(notes))
@@ -115,8 +115,8 @@ def mean_rigidity(ensemble) -> Outcome:
         whole = relative_difference(simulation.mean(axis=1), theory.mean(axis=1))
         first, final = (mean(theory[complete(theory), place]) for place in (0, -1))
         notes.append(
-            f"Over all strains at {where} the difference is {text(whole)}; G goes from "
-            f"{text(first)} in the first tenth to {text(final)} in the last."
+            f"Over all strains at {where} the difference is {whole}; G goes from "
+            f"{first} in the first tenth to {final} in the last."
         )
     return Outcome(parts, " ".join(notes))
 

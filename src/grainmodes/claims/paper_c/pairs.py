@@ -15,10 +15,10 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import pandas as pd
 
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
-from grainmodes.claims.estimates import Estimate, mean
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
 from grainmodes.claims.samples import FEWEST, at, sizes
 from grainmodes.ensemble.exceptional import Sample, samples
+from grainmodes.statistics.estimates import Estimate, mean
 
 EXPONENT, TOLERANCE = 0.5, 0.01
 """C (21), and how far a measured exponent may lie from it."""
@@ -46,7 +46,7 @@ def born_under_shear(ensemble) -> Outcome:
             born = np.where(np.isfinite(pairs[:, 0]), np.nansum(pairs, axis=1) > 0.0, np.nan)
             parts.append(Part(f"at first, {where}", mean(pairs[:, 0]), -0.5, 0.5))
             parts.append(Part(f"share, {where}", mean(born), SHARE))
-            notes.append(f"At {where} the last state has {text(mean(_last(pairs)))} pairs.")
+            notes.append(f"At {where} the last state has {mean(_last(pairs))} pairs.")
     return Outcome(parts, " ".join(notes))
 
 
@@ -97,7 +97,7 @@ def parallel_eigenvectors(ensemble) -> Outcome:
         if np.isfinite(found.error):
             parts.append(Part(where, found, PARALLEL))
             far = _over(of, lambda s: float(_real(s).groupby("of")["product"].last().mean()))
-            notes.append(f"At the farthest state, {where}, it is {text(far)}.")
+            notes.append(f"At the farthest state, {where}, it is {far}.")
     return Outcome(parts, " ".join(notes))
 
 

@@ -14,9 +14,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
-from grainmodes.claims.estimates import mean
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
 from grainmodes.claims.samples import Samples, at, richest
+from grainmodes.statistics.estimates import mean
 
 SAME = 0.01
 """Relative difference of a fitted rate or frequency to linear theory."""
@@ -92,7 +92,7 @@ def growth(ensemble) -> Outcome:
         parts.append(Part(f"first change, {where}", size, *AROUND))
         later = (of["end_time"] - of["change_time"])[:, 0] * of["rate_linear"]
         parts.append(Part(f"end after it, {where}", mean(later), -SOON, SOON))
-        swing = " and ".join(text(mean(of[name][:, 0])) for name in depths)
+        swing = " and ".join(f"{mean(of[name][:, 0])}" for name in depths)
         notes.append(
             f"At {where} M and A swing by {swing} of their means; e^(2ω_i t) sin²(ω_r t) would "
             "swing by 1: only the first turns after a kick do."
@@ -167,7 +167,5 @@ def damping(ensemble) -> Outcome:
                 parts.append(Part(name, largest, high=SLIGHT))
             else:
                 rate = mean(of["displacement_rate"][:, run] / of["rate_linear"])
-                notes.append(
-                    f"At {name} M grows to log10 M = {text(largest)}, at {text(rate)} ω_i."
-                )
+                notes.append(f"At {name} M grows to log10 M = {largest}, at {rate} ω_i.")
     return Outcome(parts, " ".join(notes))

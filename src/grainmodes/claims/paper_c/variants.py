@@ -13,10 +13,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, text
-from grainmodes.claims.estimates import Estimate, mean
+from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
 from grainmodes.claims.samples import Samples, at, richest
 from grainmodes.ensemble import normal_law
+from grainmodes.statistics.estimates import Estimate, mean
 
 MOST = 0.5
 """Share of the samples that must have a pair somewhere on their way."""
@@ -46,7 +46,7 @@ def smoothed_is_unstable(ensemble) -> Outcome:
         pairs = _of(samples, "pairs_slipping", "smoothed_coulomb", point)
         parts.append(Part(f"born, {at(*point)}", mean(_born(pairs)), MOST))
         parts.append(Part(f"growth, {at(*point)}", _growth(samples, point), *GROWS))
-        notes.append(f"{text(mean(np.nanmean(pairs, axis=1)))} pairs a state at {at(*point)}.")
+        notes.append(f"{mean(np.nanmean(pairs, axis=1))} pairs a state at {at(*point)}.")
     return Outcome(_resolved(parts), " ".join(notes))
 
 
@@ -73,7 +73,7 @@ def sharp_is_stable(ensemble) -> Outcome:
         growth = Part(f"growth, {at(*point)}", mean(largest[np.isfinite(largest)]), high=STAYS)
         parts.append(growth)
         notes.append(
-            f"At {at(*point)} springs that slip make pairs in {text(mean(_share(slipped)))} of the "
+            f"At {at(*point)} springs that slip make pairs in {mean(_share(slipped))} of the "
             f"states; of {np.isfinite(ratio).sum()} released ones {(ratio > STAYS).sum()} grow."
         )
     return Outcome(_resolved(parts), " ".join(notes))
