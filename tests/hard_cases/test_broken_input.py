@@ -90,27 +90,29 @@ def of_packings(made) -> Stage:
 STAGES = {
     "compress": Stage(
         checkpoints,
-        lambda of: stages.compress_block(16, range(2), 0.71, COARSE, "hertz", of),
+        lambda block: stages.compress_block(16, range(2), 0.71, COARSE, "hertz", block),
         (*GRAINS, "phi_jamming"),
     ),
     "pack": Stage(
         checkpoints,
-        lambda of: stages.packing_block(of, 0.71, COARSE, "hertz"),
+        lambda block: stages.packing_block(block, 0.71, COARSE, "hertz"),
         (*GRAINS, "phi_jamming"),
     ),
-    "rigidity": of_packings(lambda of: stages.rigidity_block(of, WEAK, Rattlers())),
-    "step strain": of_packings(lambda of: stages.step_strain_block(of, WEAK, StepStrain())),
-    "spectrum": of_packings(lambda of: spectrum_block(of, WEAK, Rattlers(), "modes", MODES)),
-    "rattlers": of_packings(lambda of: rattlers_block(of, WEAK, "modes", MODES)),
-    "hessian": of_packings(lambda of: hessian_block(of, WEAK, Rattlers(), MODES)),
-    "probes": of_packings(lambda of: probes_block(of, ContactLaw(), Protocol())),
-    "fields": of_packings(lambda of: fields_block(of, WEAK, Rattlers(), StepStrain(), (0.5,))),
-    "close-up": of_packings(lambda of: close_up_block(of, WEAK, SHEAR)),
-    "shear": of_packings(lambda of: shear_block(of, WEAK, SHEAR)),
-    "pairs": of_packings(lambda of: pairs_block(of, SLIPPING, SHEAR, PairChoices())),
-    "variants": of_packings(lambda of: variants_block(of, SLIPPING, SHEAR)),
+    "rigidity": of_packings(lambda block: stages.rigidity_block(block, WEAK, Rattlers())),
+    "step strain": of_packings(lambda block: stages.step_strain_block(block, WEAK, StepStrain())),
+    "spectrum": of_packings(lambda block: spectrum_block(block, WEAK, Rattlers(), "modes", MODES)),
+    "rattlers": of_packings(lambda block: rattlers_block(block, WEAK, "modes", MODES)),
+    "hessian": of_packings(lambda block: hessian_block(block, WEAK, Rattlers(), MODES)),
+    "probes": of_packings(lambda block: probes_block(block, ContactLaw(), Protocol())),
+    "fields": of_packings(
+        lambda block: fields_block(block, WEAK, Rattlers(), StepStrain(), (0.5,))
+    ),
+    "close-up": of_packings(lambda block: close_up_block(block, WEAK, SHEAR)),
+    "shear": of_packings(lambda block: shear_block(block, WEAK, SHEAR)),
+    "pairs": of_packings(lambda block: pairs_block(block, SLIPPING, SHEAR, PairChoices())),
+    "variants": of_packings(lambda block: variants_block(block, SLIPPING, SHEAR)),
     "release": Stage(
-        unstable, lambda of: release_block(of, state()[1], SHORT), (*GRAINS[:3], *STATE)
+        unstable, lambda block: release_block(block, state()[1], SHORT), (*GRAINS[:3], *STATE)
     ),
 }
 """Every stage that computes."""

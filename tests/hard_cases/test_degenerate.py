@@ -53,15 +53,15 @@ def test_a_sample_with_two_grains_at_one_place_fails_alone():
 
 def test_a_crystal_has_every_eigenvalue_as_often_as_it_is_counted():
     """Lanczos with one vector sees one mode of each multiplet of the waves ±q."""
-    of = problem(crystal(7, 8, 0.95), elastic("hertz", 0.5))
-    shift = of.shift()
+    eigenproblem = problem(crystal(7, 8, 0.95), elastic("hertz", 0.5))
+    shift = eigenproblem.shift()
     low, high = 0.05, 0.35
     modes = shift.to(high).count - shift.to(low).count
     values, vectors = naive_failures.eigenpairs_near(shift, 0.2, 60, 1)
-    sound = np.linalg.norm(of.matrix @ vectors - vectors * values, axis=0) < 1e-8
+    sound = np.linalg.norm(eigenproblem.matrix @ vectors - vectors * values, axis=0) < 1e-8
     assert np.count_nonzero(sound & (values > low) & (values < high)) < 0.5 * modes
     found = spectrum_slicing.eigenpairs(shift, spectrum_slicing.Window(low, high, modes))
-    lapack = np.linalg.eigvalsh(of.matrix.toarray())
+    lapack = np.linalg.eigvalsh(eigenproblem.matrix.toarray())
     inside = lapack[(lapack >= low) & (lapack < high)]
     np.testing.assert_allclose(found.values, inside, atol=1e-14)
     np.testing.assert_allclose(found.vectors.T @ found.vectors, np.eye(modes), atol=1e-12)

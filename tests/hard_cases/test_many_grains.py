@@ -37,7 +37,9 @@ def tiled(packing: Packing, copies: int) -> Packing:
     small = packing.fraction.astype(object) // copies
     x, y = (small[axis][None] + step[:, None] for axis in (0, 1))
     every = [np.tile(x[:, None], (1, copies, 1)), np.tile(y[None], (copies, 1, 1))]
-    wrapped = np.array([(of.ravel() + 2**63) % 2**64 - 2**63 for of in every]).astype(np.int64)
+    wrapped = np.array([(total.ravel() + 2**63) % 2**64 - 2**63 for total in every]).astype(
+        np.int64
+    )
     many = copies * copies
     diameter, mass = np.tile(packing.diameter, many), np.tile(packing.mass, many)
     return Packing(wrapped, diameter, mass, copies * packing.box_length)

@@ -21,10 +21,10 @@ STIFF = pytest.mark.parametrize("kt", [10.0, 1e3, 1e6])
 @pytest.mark.parametrize("kt", [1e3, 1e6])
 def test_zero_modes_are_those_of_the_rounding_of_the_matrix(kt):
     """An absolute edge of 1e-14 takes translations of stiff grains for vibrations."""
-    of = problem(PACKING, elastic("hertz", kt))
-    lapack = dense.eigenvalues(of)
+    eigenproblem = problem(PACKING, elastic("hertz", kt))
+    lapack = dense.eigenvalues(eigenproblem)
     assert np.count_nonzero(np.abs(lapack) < 1e-14) < 2
-    found = full_spectrum(of, choices=SpectrumChoices("windows")).eigenvalue
+    found = full_spectrum(eigenproblem, choices=SpectrumChoices("windows")).eigenvalue
     assert np.count_nonzero(found == 0.0) == 2
     np.testing.assert_allclose(
         found[2:], np.delete(lapack, np.argsort(np.abs(lapack))[:2]), rtol=1e-9

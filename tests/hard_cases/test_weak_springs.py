@@ -30,35 +30,35 @@ def sure(matrix: np.ndarray, value: float, rank: int, part: float) -> bool:
 
 @pytest.mark.parametrize(("kt", "lapack"), [(1e-10, 1e-9), (1e-12, 1e-7)])
 def test_soft_eigenvalues_keep_ten_digits(kt, lapack):
-    of = problem(SMALL, elastic("hertz", kt))
-    matrix, rank = of.matrix.toarray(), 2
-    assert not sure(matrix, dense.eigenvalues(of)[rank], rank, lapack)
-    assert sure(matrix, full_spectrum(of, choices=WINDOWS).eigenvalue[rank], rank, 1e-10)
+    eigenproblem = problem(SMALL, elastic("hertz", kt))
+    matrix, rank = eigenproblem.matrix.toarray(), 2
+    assert not sure(matrix, dense.eigenvalues(eigenproblem)[rank], rank, lapack)
+    assert sure(matrix, full_spectrum(eigenproblem, choices=WINDOWS).eigenvalue[rank], rank, 1e-10)
 
 
 def test_a_space_that_exhausts_a_band_beside_a_gap_stays_orthogonal():
     """63 rotations at 1e-12, the next modes at 1e-3: W falls by 1e9 within a block."""
-    of = problem(quenched(64, 0.9), elastic("hertz", 1e-12))
-    shift = of.shift()
+    eigenproblem = problem(quenched(64, 0.9), elastic("hertz", 1e-12))
+    shift = eigenproblem.shift()
     window = spectrum_slicing.Window(1.07e-12, 6.9e-12, 13)
     values, vectors = naive_failures.eigenpairs_near(shift, 4e-12, 112, 16)
     inside = (values > window.low) & (values < window.high)
-    assert residual(of, values[inside], vectors[:, inside]) > 1e-6
+    assert residual(eigenproblem, values[inside], vectors[:, inside]) > 1e-6
     found = spectrum_slicing.eigenpairs(shift, window)
-    assert residual(of, *found) < 1e-13
+    assert residual(eigenproblem, *found) < 1e-13
     np.testing.assert_allclose(found.vectors.T @ found.vectors, np.eye(13), atol=1e-12)
 
 
-def residual(of, values, vectors) -> float:
+def residual(eigenproblem, values, vectors) -> float:
     """Largest ‖J R − λ R‖."""
-    return float(np.linalg.norm(of.matrix @ vectors - vectors * values, axis=0).max())
+    return float(np.linalg.norm(eigenproblem.matrix @ vectors - vectors * values, axis=0).max())
 
 
 def test_rotations_below_the_lowest_safe_edge_are_counted_as_zero_modes():
-    of = problem(SMALL, elastic("hertz", 1e-16))
-    lapack = dense.eigenvalues(of)
+    eigenproblem = problem(SMALL, elastic("hertz", 1e-16))
+    lapack = dense.eigenvalues(eigenproblem)
     assert np.count_nonzero(lapack < 0.0) > 2
-    found = full_spectrum(of, choices=WINDOWS).eigenvalue
+    found = full_spectrum(eigenproblem, choices=WINDOWS).eigenvalue
     assert np.count_nonzero(found == 0.0) == 2 + 16
     np.testing.assert_allclose(found[18:], lapack[18:], rtol=1e-10)
 
@@ -69,9 +69,9 @@ def test_rotations_of_a_step_have_a_limit(kt):
     law = elastic("hertz", kt)
     limit = rigidity(SMALL, elastic("hertz", 1e-7)).loaded.displacement
     found = rigidity(SMALL, law).loaded
-    of = problem(SMALL, law)
-    cut = np.linalg.pinv(of.matrix.toarray(), rcond=1e-8, hermitian=True)
-    spins = (cut @ (of.matrix @ found.displacement.ravel()))[2::3]
+    eigenproblem = problem(SMALL, law)
+    cut = np.linalg.pinv(eigenproblem.matrix.toarray(), rcond=1e-8, hermitian=True)
+    spins = (cut @ (eigenproblem.matrix @ found.displacement.ravel()))[2::3]
     assert np.abs(limit[:, 2]).max() > 0.9 and np.abs(spins).max() < 1e-8
     np.testing.assert_allclose(found.displacement, limit, atol=1e-5)
 

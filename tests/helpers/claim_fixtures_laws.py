@@ -28,8 +28,8 @@ def ensemble() -> xr.Dataset:
         rate = np.where(having, RATE, 0.0)
         _add(dataset, f"variant_rate_{law}", rate)
         for name, value in numbers.items():
-            of = np.where(having, value, np.nan if name == "growth" else 0.0)
-            _add(dataset, f"variant_{name}_{law}", of)
+            by_state = np.where(having, value, np.nan if name == "growth" else 0.0)
+            _add(dataset, f"variant_{name}_{law}", by_state)
     return dataset
 
 

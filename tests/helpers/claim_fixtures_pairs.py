@@ -1,4 +1,4 @@
-"""The ensemble of `claimed` with complex pairs, on which every claim of paper C on them holds.
+"""The ensemble of `claim_fixtures` with complex pairs: every claim of paper C on pairs holds.
 
 no pair in the first of five states, then one, two, three, four
 a birth and a death in every sample, (λ1 − λ2)² proportional to γ − γ_c, exponents 1/2
@@ -24,9 +24,9 @@ def ensemble() -> xr.Dataset:
     rows = [_sample(seed) for seed in range(claim_fixtures.SEEDS)]
     for name in rows[0]:
         axis = {"pair": "pair_state", "exceptional": "exceptional_state"}
-        of = name.partition("_")[0]
+        kind = name.partition("_")[0]
         values = np.stack([np.asarray(row[name], float) for row in rows])
-        dims = ("seed", axis.get(of, of))[: values.ndim]
+        dims = ("seed", axis.get(kind, kind))[: values.ndim]
         dataset[name] = xr.DataArray(values, dims=dims).expand_dims(
             {key: [value] for key, value in PLACE.items()}
         )

@@ -1,4 +1,4 @@
-"""The ensemble of `claimed` with released samples, on which the claims C4 to C7 hold."""
+"""The ensemble of `claim_fixtures` with released samples, on which the claims C4 to C7 hold."""
 
 from __future__ import annotations
 
@@ -39,10 +39,13 @@ def _sample(seed: int) -> dict[str, object]:
         "spiral_misfit": 1e-4 * factor,
         "spiral_overlap": 1.0 - 1e-6 * factor,
         "spiral_opening": 0.25 * factor,
-        **{f"{of}_rate": damped * (1.0 + 1e-3 * factor) for of in ("displacement", "rotation")},
         **{
-            f"{of}_frequency": np.where(grows, frequency * (1.0 + 4e-4), np.nan)
-            for of in ("displacement", "rotation")
+            f"{field}_rate": damped * (1.0 + 1e-3 * factor)
+            for field in ("displacement", "rotation")
+        },
+        **{
+            f"{field}_frequency": np.where(grows, frequency * (1.0 + 4e-4), np.nan)
+            for field in ("displacement", "rotation")
         },
         "displacement_depth": 0.2 * factor * nothing,
         "rotation_depth": 0.3 * factor * nothing,

@@ -1,4 +1,4 @@
-"""The ensemble of `claimed` with sheared harmonic grains, on which every claim of paper B holds.
+"""The ensemble of `claim_fixtures` with sheared harmonic grains: every claim of paper B holds.
 
 every step raises σ by g Δγ - Δγ², so that σ_th is right to order Δγ²
 an event every 0.01, bracketed to Δγ_Th in tenths of Δγ_in: σ falls, λ_min and g jump

@@ -1,4 +1,4 @@
-"""Changes of `claim_fixtures.ensemble()`, each of which one claim of paper A alone fails."""
+"""Changes of `claim_fixtures.ensemble()`, each of which fails one claim of paper A and no other."""
 
 import numpy as np
 
@@ -120,7 +120,7 @@ def no_pairs(ensemble):
     ensemble["complex_pairs_frictional"] = 0.0 * ensemble["complex_pairs_frictional"]
 
 
-DOCTORED = {
+MUTANTS = {
     "A1": theory_off,
     "A2": proportional,
     "A3": not_flat,
@@ -165,10 +165,10 @@ def other_position_order(ensemble):
     ensemble["verlet_order_position"] = 0.5 * ensemble["verlet_order_position"]
 
 
-SECOND = {
+SECOND_MUTANTS = {
     "A6": no_growth,
     "A8": never_overlapping,
     "A9": no_collapse,
     "A18": other_position_order,
 }
-"""Claims that say two things, doctored in the second."""
+"""Changes that fail the second statement of a claim that makes two."""

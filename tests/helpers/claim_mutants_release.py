@@ -1,13 +1,13 @@
-"""Changes of `claimed_release.ensemble()`, each of which one claim of C4 to C7 does not survive."""
+"""Changes of `claim_fixtures_release.ensemble()`, each of which fails one claim of C4 to C7."""
 
 
 def changed(name: str, factor: float, added: float = 0.0):
     """Multiply and shift one variable."""
 
-    def doctor(ensemble):
+    def mutate(ensemble):
         ensemble[f"release_{name}"] = factor * ensemble[f"release_{name}"] + added
 
-    return doctor
+    return mutate
 
 
 def grows_though_damped(ensemble):
@@ -22,7 +22,7 @@ def suppressed_by_little(ensemble):
     ensemble["release_largest_square"] = largest.where(largest["damping"] != 1, 1e-22)
 
 
-DOCTORED = [
+MUTANTS = [
     ("C4", changed("spiral_misfit", 1e3)),
     ("C4", changed("spiral_overlap", 0.9)),
     ("C4", changed("spiral_opening", 0.1)),
@@ -38,4 +38,4 @@ DOCTORED = [
     ("C7", grows_though_damped),
     ("C7", suppressed_by_little),
 ]
-"""The claim and what it falls by, each part of it at least once."""
+"""A claim and a change that fails it, at least one for each part of the claim."""

@@ -1,4 +1,4 @@
-"""Changes of `claim_fixtures_shear.ensemble()`, each of which one claim of paper B fails."""
+"""Changes of `claim_fixtures_shear.ensemble()`, each of which fails one claim of paper B."""
 
 import numpy as np
 
@@ -68,7 +68,7 @@ def turning_as_one(ensemble):
     ensemble["event_quadrupole"] = 0.1 * ensemble["event_quadrupole"]
 
 
-DOCTORED = {
+MUTANTS = {
     "B1": theory_off,
     "B2": other_without_brackets,
     "B3": trend_before_events,
@@ -79,7 +79,7 @@ DOCTORED = {
     "B8": softer_in_changes,
     "B9": no_contact_changes,
 }
-"""Claims that fall alone; B10 says of harmonic grains what A1 says, and falls with it."""
+"""Claims that fail alone; B10 is A1 for harmonic grains and fails with it."""
 
 
 def no_jump(ensemble):
@@ -87,5 +87,5 @@ def no_jump(ensemble):
     ensemble["curve_lowest_eigenvalue"] = 0.2 - 0.1 * strain
 
 
-SECOND = {"B3": no_jump}
-"""Claims that say two things, doctored in the second."""
+SECOND_MUTANTS = {"B3": no_jump}
+"""Changes that fail the second statement of a claim that makes two."""

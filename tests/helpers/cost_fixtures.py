@@ -21,7 +21,7 @@ def observing(**observables) -> dict:
     return {"observables": ONLY_G | observables}
 
 
-def priced(scene, stage: str, table=FREE) -> float:
+def seconds_of_stage(scene, stage: str, table=FREE) -> float:
     """CPU seconds of a stage."""
     return sum(item.seconds for item in estimate(scene, table) if item.stage == stage)
 

@@ -118,7 +118,7 @@ def _spectrum(n, phi, kt, size, draws):
     kind = np.hstack([np.zeros((size, 2)), np.ones((size, rotations)), np.zeros((size, 2 * n - 2))])
     measured = (values, kind, draws.uniform(0.2, 0.6, (size, columns)))
     order = values.argsort(axis=1)
-    modes = (np.take_along_axis(of, order, axis=1) for of in measured)
+    modes = (np.take_along_axis(quantity, order, axis=1) for quantity in measured)
     return dict(zip(names, modes, strict=True)) | {
         "mode_count": np.full(size, columns),
         "residual": np.full(size, 1e-15),
@@ -149,8 +149,8 @@ def _spectrum_rattlers(n, phi, kt, size, draws):
     modes = _spectrum(n, phi, kt, size, draws)
     lone = {"eigenvalue": [0.0, 0.0, 0.01 * kt], "psi_rotational": 1, "participation_ratio": 1 / n}
     if phi > JAMMING:
-        for name, of in lone.items():
-            modes[name][:, -3:] = of
+        for name, value in lone.items():
+            modes[name][:, -3:] = value
     return {f"{name}_rattlers": modes[name] for name in (*lone, "mode_count")}
 
 
@@ -198,12 +198,12 @@ def _variants(n, phi, kt, size, draws):
     row["variant_strain"] = one * np.arange(1, 6) * 1e-3
     for law in TANGENTIAL_LAWS:
         sharp = law.startswith("sharp")
-        of = pairs * (law != "elastic_force")
-        row[f"variant_pairs_slipping_{law}"] = one * of
-        row[f"variant_pairs_sticking_{law}"] = one * of * (not sharp)
-        row[f"variant_slipping_{law}"] = one * of * sharp
-        row[f"variant_rate_{law}"] = 0.01 * one * of
-        row[f"variant_growth_{law}"] = np.where(one * of > 0, 0.0 if sharp else 0.01, np.nan)
+        found = pairs * (law != "elastic_force")
+        row[f"variant_pairs_slipping_{law}"] = one * found
+        row[f"variant_pairs_sticking_{law}"] = one * found * (not sharp)
+        row[f"variant_slipping_{law}"] = one * found * sharp
+        row[f"variant_rate_{law}"] = 0.01 * one * found
+        row[f"variant_growth_{law}"] = np.where(one * found > 0, 0.0 if sharp else 0.01, np.nan)
     return row
 
 

@@ -104,7 +104,7 @@ def slipped() -> tuple[Packing, object]:
     return packing, interaction(smoothed_coulomb(data))
 
 
-def specimens() -> list:
+def packings_and_laws() -> list:
     still = [
         pytest.param(reference(name)[1], elastic(name, kt), id=f"{name[:12]}-{kt:g}")
         for name in ELASTIC[1:3]
@@ -130,13 +130,13 @@ def rearranged(packing: Packing, order: np.ndarray) -> Packing:
     )
 
 
-@pytest.mark.parametrize(("packing", "law"), specimens())
+@pytest.mark.parametrize(("packing", "law"), packings_and_laws())
 def test_order_of_the_grains_does_not_matter(packing, law):
     order = np.random.default_rng(0).permutation(packing.n)
     same(everything(packing, law), everything(rearranged(packing, order), law))
 
 
-@pytest.mark.parametrize(("packing", "law"), specimens())
+@pytest.mark.parametrize(("packing", "law"), packings_and_laws())
 def test_origin_does_not_matter(packing, law):
     offset = np.array([[2**62 + 12345], [-(2**63)]], dtype=np.int64)
     same(
@@ -145,7 +145,7 @@ def test_origin_does_not_matter(packing, law):
     )
 
 
-@pytest.mark.parametrize(("packing", "law"), specimens())
+@pytest.mark.parametrize(("packing", "law"), packings_and_laws())
 def test_half_a_turn_changes_nothing(packing, law):
     same(everything(packing, law), everything(replace(packing, fraction=-packing.fraction), law))
 
@@ -158,7 +158,7 @@ def mirrored(packing: Packing) -> Packing:
     return replace(packing, fraction=fraction, strain=-packing.strain, history=history)
 
 
-@pytest.mark.parametrize(("packing", "law"), specimens())
+@pytest.mark.parametrize(("packing", "law"), packings_and_laws())
 def test_a_mirror_changes_no_modulus(packing, law):
     left, right = everything(packing, law), everything(mirrored(packing), law)
     same(left, right, ["overlap", "eigenvalue"])

@@ -84,10 +84,10 @@ def test_grains_of_paper_c(n, phi, seed, normal):
 def test_harmonic_grains_know_no_length(relaxation):
     """Equal numbers place the same grains, and k_N ξ is the same force in every unit of length."""
     grains = [C_GRAINS | {"large_diameter": diameter} for diameter in (1.0, 1.4)]
-    of = [compressed(24, 0.9, 3, "harmonic", relaxation, **kind) for kind in grains]
-    one, other = (packing.fraction for packing in of)
+    both = [compressed(24, 0.9, 3, "harmonic", relaxation, **kind) for kind in grains]
+    one, other = (packing.fraction for packing in both)
     assert np.abs(other - one).max() * 2.0**-64 < 1e-9
-    assert of[1].box_length == pytest.approx(1.4 * of[0].box_length, rel=1e-12)
+    assert both[1].box_length == pytest.approx(1.4 * both[0].box_length, rel=1e-12)
 
 
 @few(20)

@@ -8,8 +8,8 @@ import claim_fixtures
 from grainmodes.claims import check, report
 from grainmodes.cli import main
 
-CLAIMED = {"A": 19, "B": 10, "C": 9}
-NAMES = [f"{paper}{number + 1}" for paper, count in CLAIMED.items() for number in range(count)]
+COUNTS = {"A": 19, "B": 10, "C": 9}
+NAMES = [f"{paper}{number + 1}" for paper, count in COUNTS.items() for number in range(count)]
 
 
 def test_reports_hold_every_claim(tmp_path):

@@ -1,4 +1,4 @@
-"""Claims C1 to C3 hold where they should, and fall, alone, where one number is doctored."""
+"""Claims C1 to C3 hold where they should, and fall, alone, where one number is changed."""
 
 import numpy as np
 import pytest
@@ -31,7 +31,7 @@ def not_parallel(ensemble):
     ensemble["exceptional_product"] = 0.9 * ensemble["exceptional_product"]
 
 
-DOCTORED = [
+MUTANTS = [
     ("C1", pairs_from_the_start),
     ("C1", no_pairs),
     ("C2", linear),
@@ -50,10 +50,10 @@ def test_the_claims_of_three_papers_stand_in_one_table():
     assert {found[name].verdict for name in NAMES} == {HOLDS}
 
 
-@pytest.mark.parametrize(("name", "doctor"), DOCTORED)
-def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
+@pytest.mark.parametrize(("name", "mutate"), MUTANTS)
+def test_one_changed_number_contradicts_its_claim_alone(name, mutate):
     ensemble = claim_fixtures_pairs.ensemble()
-    doctor(ensemble)
+    mutate(ensemble)
     found = verdicts(ensemble)
     fallen = {n: found[n].verdict for n in NAMES if found[n].verdict != HOLDS}
     assert fallen == {name: CONTRADICTED}

@@ -1,11 +1,11 @@
-"""Claims C4 to C7 hold where they should, and fall, alone, where one number is doctored."""
+"""Claims C4 to C7 hold where they should, and fall, alone, where one number is changed."""
 
 import numpy as np
 import pytest
 
 import claim_fixtures
 import claim_fixtures_release
-from claim_mutants_release import DOCTORED
+from claim_mutants_release import MUTANTS
 from grainmodes.claims import CLAIMS, check, paper_c
 from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED, NOT_RESOLVED
 
@@ -29,10 +29,10 @@ def test_they_hold_and_stand_in_the_table_of_all():
     assert [name for name in everything if name in NAMES] == NAMES
 
 
-@pytest.mark.parametrize(("name", "doctor"), DOCTORED)
-def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
+@pytest.mark.parametrize(("name", "mutate"), MUTANTS)
+def test_one_changed_number_contradicts_its_claim_alone(name, mutate):
     ensemble = claim_fixtures_release.ensemble()
-    doctor(ensemble)
+    mutate(ensemble)
     found = verdicts(ensemble)
     assert {n: v.verdict for n, v in found.items() if v.verdict != HOLDS} == {name: CONTRADICTED}
 

@@ -1,4 +1,4 @@
-"""Every claim of paper B holds where it should, and falls, alone, where one number is doctored."""
+"""Every claim of paper B holds where it should, and falls, alone, where one number is changed."""
 
 import json
 
@@ -7,7 +7,7 @@ import pytest
 
 import claim_fixtures
 import claim_fixtures_shear
-from claim_mutants_shear import DOCTORED, SECOND
+from claim_mutants_shear import MUTANTS, SECOND_MUTANTS
 from grainmodes.claims import CLAIMS, check, paper_b
 from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED, NOT_RESOLVED
 
@@ -38,10 +38,10 @@ def test_both_papers_stand_in_one_table():
     assert {v.verdict for name, v in found.items() if name not in of_c} == {HOLDS}
 
 
-@pytest.mark.parametrize(("name", "doctor"), [*DOCTORED.items(), *SECOND.items()])
-def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
+@pytest.mark.parametrize(("name", "mutate"), [*MUTANTS.items(), *SECOND_MUTANTS.items()])
+def test_one_changed_number_contradicts_its_claim_alone(name, mutate):
     ensemble = claim_fixtures_shear.ensemble()
-    doctor(ensemble)
+    mutate(ensemble)
     found = verdicts(ensemble, CLAIMS)
     fallen = {n: v.verdict for n, v in found.items() if v.verdict not in (HOLDS, NOT_ASKED)}
     assert fallen == {name: CONTRADICTED}

@@ -1,4 +1,4 @@
-"""C8 and C9 hold where they should, and fall, alone, where one number is doctored."""
+"""C8 and C9 hold where they should, and fall, alone, where one number is changed."""
 
 import json
 
@@ -45,7 +45,7 @@ def test_both_hold_and_name_their_numbers():
 
 
 @pytest.mark.parametrize(
-    ("name", "doctor"),
+    ("name", "mutate"),
     [
         ("C8", never_born),
         ("C8", slower),
@@ -53,9 +53,9 @@ def test_both_hold_and_name_their_numbers():
         ("C9", sharp_grows),
     ],
 )
-def test_one_doctored_number_contradicts_its_claim_alone(name, doctor):
+def test_one_changed_number_contradicts_its_claim_alone(name, mutate):
     ensemble = claim_fixtures_laws.ensemble()
-    doctor(ensemble)
+    mutate(ensemble)
     found = verdicts(ensemble, CLAIMS)
     fallen = {n: v.verdict for n, v in found.items() if v.verdict not in (HOLDS, NOT_ASKED)}
     assert fallen == {name: CONTRADICTED}

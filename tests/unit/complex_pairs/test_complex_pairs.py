@@ -68,7 +68,7 @@ def test_the_pairs_of_a_state_are_eigenpairs(sheared, matrix):
 def test_a_condition_is_what_an_error_grows_by(matrix):
     found = dense_pairs(matrix)
     place = int(np.argmax(found.condition))
-    size, (left, right) = 1e-9, (of[:, place] for of in (found.left, found.right))
+    size, (left, right) = 1e-9, (side[:, place] for side in (found.left, found.right))
     worst = np.outer(left, right.conj()) / np.linalg.norm(left)
     shifted = np.linalg.eigvals(matrix.toarray() + size * worst)
     moved = np.abs(shifted - found.value[place]).min()
@@ -136,10 +136,10 @@ def test_a_plane_is_found_again_from_nearby(matrix):
     draws = np.random.default_rng(1)
     for place in range(len(found.value)):
         right, left = (
-            np.stack([of[:, place].real, of[:, place].imag], axis=1)
-            for of in (found.right, found.left)
+            np.stack([side[:, place].real, side[:, place].imag], axis=1)
+            for side in (found.right, found.left)
         )
-        rough = [of + 1e-3 * draws.standard_normal(of.shape) for of in (right, left)]
+        rough = [side + 1e-3 * draws.standard_normal(side.shape) for side in (right, left)]
         plane = plane_near(matrix, plane_of(matrix, *rough))
         assert plane.residual <= SETTLED
         assert plane.values[0] == pytest.approx(found.value[place], abs=1e-12)
@@ -222,7 +222,9 @@ def test_modes_that_couple_to_all_others_stand_in_every_window(monkeypatch):
 
 def test_couples_know_the_pairs_and_what_they_lack(matrix):
     expected = dense_pairs(matrix)
-    planes = (np.stack([of.real.T, of.imag.T], axis=1) for of in (expected.right, expected.left))
+    planes = (
+        np.stack([side.real.T, side.imag.T], axis=1) for side in (expected.right, expected.left)
+    )
     right, left = planes
     found = Couples.of(matrix, right[::-1], left[::-1])
     assert found.residual.max() < 1e-12

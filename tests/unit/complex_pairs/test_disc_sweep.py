@@ -60,7 +60,7 @@ def test_what_is_missing_is_seen(monkeypatch):
 
 def with_tall_pairs(*pairs: complex) -> sparse.csr_array:
     """400 real eigenvalues from 0.1 to 1.5 and some pairs, all mixed a little."""
-    tall = [np.array([[of.real, of.imag], [-of.imag, of.real]]) for of in pairs]
+    tall = [np.array([[pair.real, pair.imag], [-pair.imag, pair.real]]) for pair in pairs]
     size = 400 + 2 * len(pairs)
     noise = 1e-3 * np.random.default_rng(4).standard_normal((size, size))
     ladder = np.diag(np.linspace(0.1, 1.5, 400))
@@ -120,6 +120,6 @@ def test_a_symmetric_matrix_has_no_pairs():
 def test_quotients_are_right_to_the_square_of_what_vectors_are():
     matrix = sheared(10.0)
     exact, draws = dense_pairs(matrix), np.random.default_rng(6)
-    right, left = (of + 1e-6 * draws.standard_normal(of.shape) for of in exact[1:])
+    right, left = (side + 1e-6 * draws.standard_normal(side.shape) for side in exact[1:])
     roughly = selected(exact.value + 1e-3, right, left)
     np.testing.assert_allclose(quotients(matrix, roughly).value, exact.value, atol=1e-8)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from cost_fixtures import FREE, TABLE, jobs, observing, priced, scene_with, total
+from cost_fixtures import FREE, TABLE, jobs, observing, scene_with, seconds_of_stage, total
 from grainmodes.cost import estimate, wall_seconds
 from grainmodes.parameters.compression import Compression
 
@@ -12,28 +12,28 @@ from grainmodes.parameters.compression import Compression
 @pytest.mark.parametrize("stage", ["compress", "pack", "rigidity"])
 def test_costs_grow_as_the_table_says(stage):
     law = TABLE.laws[{"compress": "trajectory"}.get(stage, stage)]
-    small, large = (priced(scene_with({"n": [n]}), stage) for n in (64, 1024))
+    small, large = (seconds_of_stage(scene_with({"n": [n]}), stage) for n in (64, 1024))
     assert large / small == pytest.approx(16**law.exponent)
 
 
 def test_costs_are_samples_times_the_law():
-    assert priced(scene_with({"n": [1024]}), "rigidity") == pytest.approx(
+    assert seconds_of_stage(scene_with({"n": [1024]}), "rigidity") == pytest.approx(
         4 * 4 * TABLE.laws["rigidity"].seconds
     )
-    assert priced(scene_with({"n": [1024], "seeds": 8}), "compress") == pytest.approx(
+    assert seconds_of_stage(scene_with({"n": [1024], "seeds": 8}), "compress") == pytest.approx(
         8 * TABLE.laws["trajectory"].seconds
     )
 
 
 def test_a_trajectory_ends_at_its_highest_fraction():
     law = TABLE.laws["trajectory"].seconds_at(64)
-    assert priced(scene_with({"phi": [0.84, 0.83]}), "compress") == pytest.approx(
+    assert seconds_of_stage(scene_with({"phi": [0.84, 0.83]}), "compress") == pytest.approx(
         4 * law * TABLE.climb[0.84]
     )
     halfway = (TABLE.climb[0.83] + TABLE.climb[0.84]) / 2
     assert TABLE.share(0.835) == pytest.approx(halfway)
     assert TABLE.share(0.91) > TABLE.share(0.9) == 1.0
-    packed = priced(scene_with({"phi": [0.835]}), "pack") / 4
+    packed = seconds_of_stage(scene_with({"phi": [0.835]}), "pack") / 4
     assert packed - TABLE.laws["pack"].seconds_at(64) == pytest.approx(
         law * (halfway - TABLE.climb[0.83])
     )
@@ -44,7 +44,7 @@ def test_other_compressions_cost_more():
     assert TABLE.slowdown(Compression(phi_step=1e-3)) == pytest.approx(1 / 5.5, rel=0.01)
     assert TABLE.slowdown(Compression(relaxation="fire")) > 50
     fire = {"compression": {"relaxation": "fire"}}
-    assert priced(scene_with({}, protocol=fire), "compress") > 50 * priced(
+    assert seconds_of_stage(scene_with({}, protocol=fire), "compress") > 50 * seconds_of_stage(
         scene_with({}), "compress"
     )
 

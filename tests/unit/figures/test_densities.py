@@ -19,22 +19,22 @@ from grainmodes.figures.shared.selection import Options
 
 def test_density_of_states_integrates_to_all_vibrations(ensemble):
     table = dos.table(ensemble, Options())
-    for _, of in table.groupby("kt"):
-        width = of["omega_high"] - of["omega_low"]
-        assert_allclose((of["density"] * width).sum(), (3 * 16 - 2) / (3 * 16))
-        assert of["modes"].sum() == 4 * (3 * 16 - 2)
-        assert_array_equal(of["modes_outside"], 2.0)
+    for _, rows in table.groupby("kt"):
+        width = rows["omega_high"] - rows["omega_low"]
+        assert_allclose((rows["density"] * width).sum(), (3 * 16 - 2) / (3 * 16))
+        assert rows["modes"].sum() == 4 * (3 * 16 - 2)
+        assert_array_equal(rows["modes_outside"], 2.0)
 
 
 def test_every_density_counts_every_mode_once(whole_ensemble, counted_ensemble):
     both = (whole_ensemble, counted_ensemble)
     modules = (dos, dos_n, dos_phi, dos_frictionless)
-    for table in [module.table(of, Options()) for module in modules for of in both]:
-        for (n, _, kappa), of in table.groupby(["n", "phi", "kt"]):
-            width = of["omega_high"] - of["omega_low"]
+    for table in [module.table(rows, Options()) for module in modules for rows in both]:
+        for (n, _, kappa), rows in table.groupby(["n", "phi", "kt"]):
+            width = rows["omega_high"] - rows["omega_low"]
             vibrations = (3 if kappa else 2) * n - 2
-            assert_allclose((of["density"] * width).sum(), vibrations / (3 * n))
-            assert_array_equal(of["modes_outside"], 2.0)
+            assert_allclose((rows["density"] * width).sum(), vibrations / (3 * n))
+            assert_array_equal(rows["modes_outside"], 2.0)
 
 
 def test_scaled_density_keeps_the_number_of_modes(ensemble):

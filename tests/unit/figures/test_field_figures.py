@@ -109,11 +109,11 @@ def test_eigenvectors_are_scaled_by_the_number_of_grains():
     table = eigenvectors.table([block], Options())
     assert list(table["omega_asked"].unique()) == [1e-4, 1.3e-2, 1.0]
     assert list(table["omega"].unique()) == [1.1e-4, 1.2e-2, 0.99]
-    for mode, (_, of) in enumerate(table.groupby("omega")):
+    for mode, (_, rows) in enumerate(table.groupby("omega")):
         vector = block.variables["eigenvector"][0, mode]
         columns = ["mode_x", "mode_y", "mode_rotation"]
-        assert_allclose(of[columns], 6.0 * vector)
-        assert_allclose(of["psi_rotational"], np.nansum(vector[:, 2] ** 2))
+        assert_allclose(rows[columns], 6.0 * vector)
+        assert_allclose(rows["psi_rotational"], np.nansum(vector[:, 2] ** 2))
 
 
 @pytest.mark.parametrize(

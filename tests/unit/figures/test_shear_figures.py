@@ -29,9 +29,9 @@ def sheared(tmp_path_factory):
 
 def test_a_curve_knows_what_happened_in_its_steps(sheared):
     assert points_with_curves(sheared) == [(16, 0.9, 1e-4), (16, 0.9, 1.0)]
-    of = curves(sheared, 16, 0.9, 1.0)
-    assert sorted(of) == [0, 1, 2]
-    curve = of[1]
+    by_seed = curves(sheared, 16, 0.9, 1.0)
+    assert sorted(by_seed) == [0, 1, 2]
+    curve = by_seed[1]
     assert len(curve.strain) == 13
     assert curve.strain[:-1][curve.event] == 4.01e-3
     assert curve.strain[:-1][curve.changed] == 8e-3

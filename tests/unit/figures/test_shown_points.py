@@ -62,7 +62,7 @@ def test_points_are_those_that_have_the_data(tmp_path):
 
 def unaveraged(folder, stage, n, kt):
     """A point whose spectra have neither psi nor p."""
-    packings, spectra = (synthetic.block(of, n, 0.9, kt, range(2)) for of in ("packings", stage))
+    packings, spectra = (synthetic.block(one, n, 0.9, kt, range(2)) for one in ("packings", stage))
     for name in list(spectra.variables):
         if "psi" in name or "participation" in name:
             del spectra.variables[name]

@@ -29,8 +29,8 @@ def forces(rule, overlap, displacement):
     along = np.tile([1.0, 0.0], (size, 1))
     nothing = np.zeros(size, np.int32)
     contacts = Contacts(nothing, nothing, along, np.ones(size), overlap, displacement)
-    of = forces_on_i(contacts, rule)
-    return of[:, 0], of[:, 2] if of.shape[1] == 3 else np.zeros(size)
+    on_i = forces_on_i(contacts, rule)
+    return on_i[:, 0], on_i[:, 2] if on_i.shape[1] == 3 else np.zeros(size)
 
 
 @pytest.mark.parametrize("law", [*FRICTIONLESS, *LAWS], ids=law_name)

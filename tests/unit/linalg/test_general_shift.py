@@ -27,8 +27,8 @@ def test_the_solutions_are_those_of_the_dense_matrix(shift):
     factors, right = Shifted(MATRIX).to(shift), np.random.default_rng(1).standard_normal((90, 3))
     dense = MATRIX.toarray() - shift * np.eye(90)
     right = right.astype(dense.dtype)
-    for solve, of in ((factors.solve, dense), (factors.solve_transposed, dense.T)):
-        np.testing.assert_allclose(solve(right), np.linalg.solve(of, right), rtol=1e-9)
+    for solve, shifted in ((factors.solve, dense), (factors.solve_transposed, dense.T)):
+        np.testing.assert_allclose(solve(right), np.linalg.solve(shifted, right), rtol=1e-9)
         np.testing.assert_allclose(solve(right[:, 0]), solve(right)[:, 0], rtol=1e-12)
 
 

@@ -27,9 +27,9 @@ def interleaved(problem) -> np.ndarray:
 @pytest.mark.parametrize("rank", [2, 10])
 def test_counts_change_where_the_exact_ones_do(kt, rank):
     """To 1e-13 of an eigenvalue, however small: at k_T = 1e-10 the dense one is good to 1e-6."""
-    of = problem(reference(MINIMAL[0])[1], elastic(MINIMAL[0], kt))
-    shift, matrix = SymmetricShift(of.matrix), of.matrix.toarray()
-    low, high = bracket(shift, dense.eigenvalues(of)[rank])
+    eigenproblem = problem(reference(MINIMAL[0])[1], elastic(MINIMAL[0], kt))
+    shift, matrix = SymmetricShift(eigenproblem.matrix), eigenproblem.matrix.toarray()
+    low, high = bracket(shift, dense.eigenvalues(eigenproblem)[rank])
     below = shift.to(low).count
     assert below + 1 == shift.to(high).count
     assert exact.count_below(matrix, low) == below
@@ -57,9 +57,12 @@ def compare_with_dense(n: int, phi: float, kt: float, backend: str) -> None:
     """Counts without rattlers and with them."""
     packing = quenched(n, phi)
     for keep in (False, True):
-        of = problem(packing, elastic("hertz", kt), keep_rattlers=keep)
-        shift, values = SymmetricShift(of.matrix, backend), dense.eigenvalues(of)
-        edges = interleaved(of)
+        eigenproblem = problem(packing, elastic("hertz", kt), keep_rattlers=keep)
+        shift, values = (
+            SymmetricShift(eigenproblem.matrix, backend),
+            dense.eigenvalues(eigenproblem),
+        )
+        edges = interleaved(eigenproblem)
         found = [shift.to(edge).count for edge in edges]
         np.testing.assert_array_equal(found, np.searchsorted(values, edges))
 
@@ -75,21 +78,21 @@ def test_counts_equal_the_dense_ones_for_a_thousand_grains(phi, kt, backend):
 @pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("kt", [1e-10, 1.0])
 def test_solutions_solve(kt, backend):
-    of = problem(quenched(256, 0.90), elastic("hertz", kt))
-    shift = SymmetricShift(of.matrix, backend).to(0.3)
-    right = np.random.default_rng(0).standard_normal((of.size, 5))
-    shifted = of.matrix - 0.3 * sparse.eye_array(of.size)
+    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", kt))
+    shift = SymmetricShift(eigenproblem.matrix, backend).to(0.3)
+    right = np.random.default_rng(0).standard_normal((eigenproblem.size, 5))
+    shifted = eigenproblem.matrix - 0.3 * sparse.eye_array(eigenproblem.size)
     np.testing.assert_allclose(shifted @ shift.solve(right), right, atol=1e-9)
     np.testing.assert_allclose(shift.solve(right[:, 0]), shift.solve(right)[:, 0], rtol=1e-9)
 
 
 @pytest.mark.skipif("pardiso" not in BACKENDS, reason="PARDISO is not installed")
 def test_factorisations_agree():
-    of = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
-    one, other = (SymmetricShift(of.matrix, name) for name in ("superlu", "pardiso"))
+    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
+    one, other = (SymmetricShift(eigenproblem.matrix, name) for name in ("superlu", "pardiso"))
     assert (one.name, other.name) == ("superlu", "pardiso")
     assert [one.to(e).count for e in EDGES] == [other.to(e).count for e in EDGES]
-    right = np.random.default_rng(1).standard_normal(of.size)
+    right = np.random.default_rng(1).standard_normal(eigenproblem.size)
     np.testing.assert_allclose(one.to(0.3).solve(right), other.to(0.3).solve(right), rtol=1e-8)
 
 
@@ -107,11 +110,11 @@ def test_two_factorisations_live_side_by_side(backend):
 
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_counts_are_right_where_a_leading_part_is_singular(backend):
-    of = problem(quenched(128, 0.86), elastic("hertz", 1.0))
-    values, shift = dense.eigenvalues(of), of.shift("superlu")
+    eigenproblem = problem(quenched(128, 0.86), elastic("hertz", 1.0))
+    values, shift = dense.eigenvalues(eigenproblem), eigenproblem.shift("superlu")
     order = shift.to(0.5)._factors._order
-    leading = of.matrix[order][:, order].toarray()
-    shift = of.shift(backend)
+    leading = eigenproblem.matrix[order][:, order].toarray()
+    shift = eigenproblem.shift(backend)
     for size in (1, 2, 3, 5, 9, 17):
         for sigma in np.linalg.eigvalsh(leading[:size, :size]):
             if np.abs(values / sigma - 1.0).min() > 1e-6:

@@ -26,7 +26,9 @@ def errors_of(rows) -> dict[tuple[str, float], float]:
 def here(monkeypatch):
     """Nothing is measured in a process of its own, nor more than once."""
     for module in (compression_step, precision, seeds_module, spectrum):
-        monkeypatch.setattr(module, "apart", lambda of, *given: Apart(of(*given), 0.0, 1.0))
+        monkeypatch.setattr(
+            module, "apart", lambda eigenproblem, *given: Apart(eigenproblem(*given), 0.0, 1.0)
+        )
     monkeypatch.setattr(spectrum, "LEAST", 0.0)
 
 
@@ -70,26 +72,26 @@ def test_shift_and_share_of_known_samples():
 
 @pytest.mark.parametrize("kappa", [1e-8, 1.0])
 def test_the_reference_eigenvalues_are_right_to_rounding(kappa):
-    of = problem_at(kappa)
-    values, _ = sharpened(of)
-    matrix = of.matrix.toarray()
-    for rank in (2, 3, of.size // 3, of.size - 1):
+    eigenproblem = problem_at(kappa)
+    values, _ = sharpened(eigenproblem)
+    matrix = eigenproblem.matrix.toarray()
+    for rank in (2, 3, eigenproblem.size // 3, eigenproblem.size - 1):
         assert exact.count_below(matrix, values[rank] * (1.0 - 4e-16)) == rank
         assert exact.count_below(matrix, values[rank] * (1.0 + 4e-16)) == rank + 1
 
 
 def test_the_reference_eigenvectors_are_sharper_than_those_of_lapack():
-    of = problem_at(1e-8)
-    assert mixing(of, dense.eigenpairs(of)[1]) > 1e-9
-    vectors = sharpened(of)[1]
-    assert mixing(of, vectors) < 1e-12
-    assert np.abs(vectors.T @ vectors - np.eye(of.size)).max() < 1e-13
+    eigenproblem = problem_at(1e-8)
+    assert mixing(eigenproblem, dense.eigenpairs(eigenproblem)[1]) > 1e-9
+    vectors = sharpened(eigenproblem)[1]
+    assert mixing(eigenproblem, vectors) < 1e-12
+    assert np.abs(vectors.T @ vectors - np.eye(eigenproblem.size)).max() < 1e-13
 
 
-def mixing(of, vectors: np.ndarray) -> float:
+def mixing(eigenproblem, vectors: np.ndarray) -> float:
     """Largest part of another mode in a vector, translations left out; in extended precision."""
     exact_vectors = vectors[:, 2:].astype(np.longdouble)
-    product = exact_vectors.T @ (of.matrix.astype(np.longdouble) @ exact_vectors)
+    product = exact_vectors.T @ (eigenproblem.matrix.astype(np.longdouble) @ exact_vectors)
     values = np.diag(product)
     overlap = exact_vectors.T @ exact_vectors
     gap = values[None, :] - values[:, None] + np.eye(len(values))
@@ -98,14 +100,17 @@ def mixing(of, vectors: np.ndarray) -> float:
 
 
 def test_moments_of_a_kernel_polynomial_count_modes():
-    of = problem_at(1.0, 64)
-    mu = kernel_polynomial.moments(of, 400)
+    eigenproblem = problem_at(1.0, 64)
+    mu = kernel_polynomial.moments(eigenproblem, 400)
     ends = kernel_polynomial.below(mu.all, mu, np.array([mu.low, mu.high]))
-    assert ends == pytest.approx([0.0, of.size], abs=1e-6)
-    assert mu.rotational[0] == pytest.approx(of.size / 3)
+    assert ends == pytest.approx([0.0, eigenproblem.size], abs=1e-6)
+    assert mu.rotational[0] == pytest.approx(eigenproblem.size / 3)
     edges = np.linspace(0.2, 2.0, 5)
-    counted = np.linalg.eigvalsh(of.matrix.toarray()).searchsorted(edges)
-    assert np.abs(kernel_polynomial.below(mu.all, mu, edges) - counted).max() < 0.02 * of.size
+    counted = np.linalg.eigvalsh(eigenproblem.matrix.toarray()).searchsorted(edges)
+    assert (
+        np.abs(kernel_polynomial.below(mu.all, mu, edges) - counted).max()
+        < 0.02 * eigenproblem.size
+    )
 
 
 def test_methods_for_spectra():

@@ -117,10 +117,10 @@ def test_springs_never_loaded_are_not_stored_and_take_the_symmetric_way(monkeypa
     assert contacts.tangential_displacement is None
     assert net_force(packing, contacts, FRICTION).shape == (36, 3)
     assert np.isfinite(rigidity(packing, FRICTION).loaded.g)
-    of = problem(packing, FRICTION)
-    assert of.symmetric and of.k == 3
+    eigenproblem = problem(packing, FRICTION)
+    assert eigenproblem.symmetric and eigenproblem.k == 3
     for modes in (False, True):
-        assert full_spectrum(of, modes).eigenvalue.dtype == float
+        assert full_spectrum(eigenproblem, modes).eigenvalue.dtype == float
     assert effective_hessian(packing, contacts, FRICTION).shape == (108, 108)
 
 
@@ -142,19 +142,19 @@ VECTORS = ((dense, "eigenpairs"), (spectrum_slicing, "eigenpairs"), (spectrum_sl
 @pytest.mark.parametrize("method", ["dense", "counting"])
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_counts_need_no_eigenvector(monkeypatch, rule, method, backend):
-    of, choices = problem(quenched(36, 0.92), rule), SpectrumChoices(method, backend)
-    by_vectors = band_averages(of, EDGES, True, choices).count
+    eigenproblem, choices = problem(quenched(36, 0.92), rule), SpectrumChoices(method, backend)
+    by_vectors = band_averages(eigenproblem, EDGES, True, choices).count
     refuse(monkeypatch, *VECTORS)
-    found = band_averages(of, EDGES, False, choices)
+    found = band_averages(eigenproblem, EDGES, False, choices)
     np.testing.assert_array_equal(found.count, by_vectors)
     assert found.psi_rotational is None and found.participation_ratio is None
     with pytest.raises(AssertionError, match="not called for"):
-        band_averages(of, EDGES, True, choices)
+        band_averages(eigenproblem, EDGES, True, choices)
 
 
 def test_eigenvalues_need_no_eigenvector(monkeypatch):
-    of = problem(quenched(36, 0.92), FRICTION)
+    eigenproblem = problem(quenched(36, 0.92), FRICTION)
     refuse(monkeypatch, *VECTORS)
-    found = full_spectrum(of, modes=False)
-    assert len(found.eigenvalue) == of.size
+    found = full_spectrum(eigenproblem, modes=False)
+    assert len(found.eigenvalue) == eigenproblem.size
     assert found.modes is None and found.psi_rotational is None

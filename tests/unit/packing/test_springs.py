@@ -55,7 +55,7 @@ def test_harmonic_contacts_cannot_tell_what_is_remembered(tangential):
         (find_contacts(keeping(law, packing)), interaction(law)) for law in (by_s, by_force)
     )
     np.testing.assert_allclose(forces_on_i(*other), forces_on_i(*one), rtol=1e-14)
-    matrices = [jacobian(packing, *of).toarray() for of in (one, other)]
+    matrices = [jacobian(packing, *state).toarray() for state in (one, other)]
     np.testing.assert_allclose(matrices[1], matrices[0], atol=1e-14)
 
 

@@ -42,8 +42,8 @@ def plans(path, target=0.01):
     """Name → plan of the point, and the sentences on what has none."""
     with open_ensemble(path) as opened:
         found = planned(opened, DENSE, target)
-    named = {of.quantity: of for of in found if isinstance(of, Plan)}
-    return named, [of.sentence for of in found if not isinstance(of, Plan)]
+    named = {entry.quantity: entry for entry in found if isinstance(entry, Plan)}
+    return named, [entry.sentence for entry in found if not isinstance(entry, Plan)]
 
 
 def test_seeds_follow_from_spread_and_target():

@@ -147,8 +147,8 @@ def test_residuals_tell_what_is_no_mode(monkeypatch):
     packing, law = reference(MINIMAL[0])[1], elastic("hertz", 1.0)
     exact = nearest_modes(packing, law, (0.5,))
 
-    def shifted(of, shift):
-        return shift, np.eye(of.size)[0]
+    def shifted(eigenproblem, shift):
+        return shift, np.eye(eigenproblem.size)[0]
 
     monkeypatch.setattr("grainmodes.response.fields._nearest", shifted)
     assert nearest_modes(packing, law, (0.5,)).residual[0] > 1e8 * exact.residual[0]

@@ -19,13 +19,13 @@ COUNTING = SpectrumChoices("counting")
 @pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("kt", [0.0, 1e-8, 1e-4, 1.0])
 def test_bins_of_few_modes_are_exact(kt, backend):
-    of = problem(quenched(256, 0.90), elastic("hertz", kt))
+    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", kt))
     edges = fixed_edges(kt, 0.1)
-    counted = band_averages(of, edges, True, SpectrumChoices("counting", backend))
-    whole = band_averages(of, edges, True, SpectrumChoices("dense"))
+    counted = band_averages(eigenproblem, edges, True, SpectrumChoices("counting", backend))
+    whole = band_averages(eigenproblem, edges, True, SpectrumChoices("dense"))
     assert (counted.method, whole.method) == ("counting", "dense")
     np.testing.assert_array_equal(counted.count, whole.count)
-    assert counted.below + counted.count.sum() == counted.modes == of.size
+    assert counted.below + counted.count.sum() == counted.modes == eigenproblem.size
     few = counted.count <= 60
     for name in ("psi_rotational", "participation_ratio"):
         assert np.nanmax(getattr(counted, f"{name}_error")[few]) == 0.0
@@ -46,12 +46,12 @@ def cases():
     found = {"psi": [], "p": []}
     for kt in (1e-2, 0.1, 1.0, 10.0):
         for seed in range(2):
-            of = problem(quenched(256, 0.90, seed), elastic("hertz", kt))
-            top = 1.05 * np.sqrt(of.bound)
+            eigenproblem = problem(quenched(256, 0.90, seed), elastic("hertz", kt))
+            top = 1.05 * np.sqrt(eigenproblem.bound)
             edges = np.linspace(0.05, min(top, 1.2 * np.sqrt(1 + kt)), 9)
             choices = SpectrumChoices("counting", modes_per_bin=24)
-            stated = band_averages(of, edges, True, choices)
-            truth = band_averages(of, edges, True, SpectrumChoices("dense"))
+            stated = band_averages(eigenproblem, edges, True, choices)
+            truth = band_averages(eigenproblem, edges, True, SpectrumChoices("dense"))
             many = stated.count > choices.modes_per_bin
             for key, name in (("psi", "psi_rotational"), ("p", "participation_ratio")):
                 columns = (getattr(stated, name), getattr(stated, f"{name}_error"))
@@ -82,20 +82,22 @@ def test_errors_are_no_larger_than_they_must_be():
 @pytest.mark.parametrize("substeps", [1, 2, 3])
 def test_fractions_that_are_0_or_1_are_counted_exactly(substeps):
     """At k_T = 1e-8 a mode is a rotation or none: every crossing of the first leg is its own."""
-    of = problem(quenched(256, 0.90), elastic("hertz", 1e-8))
-    shift, edges = SymmetricShift(of.matrix), np.array([1e-6, 1e-3, 0.3, 0.8, 1.5])
+    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", 1e-8))
+    shift, edges = SymmetricShift(eigenproblem.matrix), np.array([1e-6, 1e-3, 0.3, 0.8, 1.5])
     below = counts(shift, edges)
     sums = rotational_sums(shift, below, edges, 3, substeps)
     np.testing.assert_array_equal(sums.total, [below[1] - below[0], 0, 0, 0])
 
 
 def test_frictionless_modes_have_no_rotation():
-    of = problem(quenched(256, 0.90), elastic("hertz", 0.0))
-    found = band_averages(of, fixed_edges(0.0, 0.05), True, COUNTING)
+    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", 0.0))
+    found = band_averages(eigenproblem, fixed_edges(0.0, 0.05), True, COUNTING)
     assert np.nanmax(found.psi_rotational) == 0.0
 
 
 def test_a_jacobian_that_is_not_symmetric_is_refused():
-    of = problem(quenched(64, 0.90), elastic("hertz", 1.0))
+    eigenproblem = problem(quenched(64, 0.90), elastic("hertz", 1.0))
     with pytest.raises(ValueError, match="symmetric"):
-        binned_averages.band_averages(type(of)(of.matrix, 3, False), FINE, False)
+        binned_averages.band_averages(
+            type(eigenproblem)(eigenproblem.matrix, 3, False), FINE, False
+        )

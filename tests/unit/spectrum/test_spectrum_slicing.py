@@ -20,11 +20,11 @@ FLOOR = 1e-14
 @pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("kt", [1e-8, 1e-4, 1.0, 10.0])
 def test_windows_hold_every_mode_once(kt, backend):
-    of = problem(quenched(256, 0.90), elastic("hertz", kt))
-    windowed = full_spectrum(of, choices=SpectrumChoices("windows", backend))
-    whole = full_spectrum(of, choices=SpectrumChoices("dense"))
+    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", kt))
+    windowed = full_spectrum(eigenproblem, choices=SpectrumChoices("windows", backend))
+    whole = full_spectrum(eigenproblem, choices=SpectrumChoices("dense"))
     assert (windowed.method, windowed.factorisation) == ("windows", backend)
-    assert windowed.residual < 1e-9 * of.bound
+    assert windowed.residual < 1e-9 * eigenproblem.bound
     np.testing.assert_allclose(windowed.eigenvalue, whole.eigenvalue, atol=2e-14)
     apart = isolated(whole.eigenvalue)
     assert apart.mean() > 0.6
@@ -41,28 +41,31 @@ def isolated(values: np.ndarray) -> np.ndarray:
 
 
 def test_eigenvectors_of_all_windows_are_orthonormal():
-    of = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
-    shift = SymmetricShift(of.matrix)
-    parts = spectrum_slicing.split(shift, FLOOR, of.bound)
+    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
+    shift = SymmetricShift(eigenproblem.matrix)
+    parts = spectrum_slicing.split(shift, FLOOR, eigenproblem.bound)
     vectors = np.hstack([spectrum_slicing.eigenpairs(shift, part).vectors for part in parts])
-    assert vectors.shape == (of.size, of.size - 2)
-    np.testing.assert_allclose(vectors.T @ vectors, np.eye(of.size - 2), atol=1e-9)
+    assert vectors.shape == (eigenproblem.size, eigenproblem.size - 2)
+    np.testing.assert_allclose(vectors.T @ vectors, np.eye(eigenproblem.size - 2), atol=1e-9)
 
 
 @pytest.mark.parametrize("kt", [1e-10, 1e-8])
 def test_small_eigenvalues_keep_their_relative_accuracy(kt):
     """Each lies between exact counts at λ (1 ± 1e-10), where LAPACK is good to 1e-6 at 1e-10."""
-    of = problem(reference(MINIMAL[0])[1], elastic(MINIMAL[0], kt))
-    values = full_spectrum(of, choices=SpectrumChoices("windows")).eigenvalue
+    eigenproblem = problem(reference(MINIMAL[0])[1], elastic(MINIMAL[0], kt))
+    values = full_spectrum(eigenproblem, choices=SpectrumChoices("windows")).eigenvalue
     for rank in (2, 9):
         bounds = values[rank] * (1 + np.array([-1e-10, 1e-10]))
-        assert [exact.count_below(of.matrix.toarray(), b) for b in bounds] == [rank, rank + 1]
+        assert [exact.count_below(eigenproblem.matrix.toarray(), b) for b in bounds] == [
+            rank,
+            rank + 1,
+        ]
 
 
 def test_windows_do_not_depend_on_the_number_of_processes():
-    of = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
+    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
     choices = SpectrumChoices("windows")
-    one, two = (full_spectrum(of, choices=choices, processes=p) for p in (1, 2))
+    one, two = (full_spectrum(eigenproblem, choices=choices, processes=p) for p in (1, 2))
     for name in ("eigenvalue", "psi_rotational", "participation_ratio"):
         np.testing.assert_array_equal(getattr(one, name), getattr(two, name))
 
@@ -90,20 +93,20 @@ def test_a_window_that_promises_too_much_is_refused():
 
 
 def test_nearest_are_the_nearest():
-    of = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
-    values = dense.eigenvalues(of)
-    found = spectrum_slicing.nearest(SymmetricShift(of.matrix), 0.31, 10)
+    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
+    values = dense.eigenvalues(eigenproblem)
+    found = spectrum_slicing.nearest(SymmetricShift(eigenproblem.matrix), 0.31, 10)
     expected = np.sort(values[np.argsort(np.abs(values - 0.31))[:10]])
     np.testing.assert_allclose(found.values, expected, rtol=1e-12)
-    residual = of.matrix @ found.vectors - found.vectors * found.values
+    residual = eigenproblem.matrix @ found.vectors - found.vectors * found.values
     assert np.abs(residual).max() < 1e-10
 
 
 def test_negative_eigenvalues_are_found_too():
-    of = problem(quenched(64, 0.90), elastic("hertz", 1.0))
+    eigenproblem = problem(quenched(64, 0.90), elastic("hertz", 1.0))
     weak = problem(quenched(64, 0.90), elastic("hertz", 1e-4))
-    unstable = replace(of, matrix=(2.0 * weak.matrix - of.matrix).tocsc())
-    forces = np.random.default_rng(0).standard_normal((of.size, 1))
+    unstable = replace(eigenproblem, matrix=(2.0 * weak.matrix - eigenproblem.matrix).tocsc())
+    forces = np.random.default_rng(0).standard_normal((eigenproblem.size, 1))
     windowed, whole = (
         full_spectrum(unstable, forces=forces, choices=SpectrumChoices(method))
         for method in ("windows", "dense")
@@ -124,7 +127,7 @@ def die(values, vectors):
 
 
 def test_a_process_that_dies_fails_its_sample():
-    of = problem(quenched(64, 0.90), elastic("hertz", 1e-4))
-    parts = spectrum_slicing.split(of.shift(), FLOOR, of.bound)
+    eigenproblem = problem(quenched(64, 0.90), elastic("hertz", 1e-4))
+    parts = spectrum_slicing.split(eigenproblem.shift(), FLOOR, eigenproblem.bound)
     with pytest.raises(MemoryError, match="killed"):
-        spectrum_slicing.measured(of, "superlu", parts, die, processes=2)
+        spectrum_slicing.measured(eigenproblem, "superlu", parts, die, processes=2)

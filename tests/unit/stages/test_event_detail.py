@@ -68,13 +68,13 @@ def block(law: ContactLaw, strain: float = 0.012) -> Block:
 
 
 def test_brackets_without_friction_lie_within_each_other():
-    of = found(LAWS[0])
-    for coarse, fine in pairwise(of):
+    states = found(LAWS[0])
+    for coarse, fine in pairwise(states):
         assert fine.before.strain > coarse.before.strain - 1e-13
         assert fine.after.strain < coarse.after.strain + 1e-13
-    widths = [b.after.strain - b.before.strain for b in of]
+    widths = [b.after.strain - b.before.strain for b in states]
     assert_allclose(widths, 10.0 ** -np.arange(4, 11), rtol=1e-5)
-    assert {b.event.kind for b in of} == {2}
+    assert {b.event.kind for b in states} == {2}
 
 
 @each_law

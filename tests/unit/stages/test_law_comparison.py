@@ -142,12 +142,13 @@ def block_of(name: str) -> Block:
 
 def test_a_block_holds_every_law_side_by_side():
     block = law_comparison.variants_block(block_of("harmonic_n16_phi0.900_seed1"), C8, BRIEF)
-    of = block.variables
-    assert set(of) <= set(VARIABLES)
-    assert of["converged"][0] == of["jammed"][0] == 1
-    assert of["variant_count"][0] == 20
+    variables = block.variables
+    assert set(variables) <= set(VARIABLES)
+    assert variables["converged"][0] == variables["jammed"][0] == 1
+    assert variables["variant_count"][0] == 20
     for law in TANGENTIAL_LAWS:
-        pairs, growth = (of[f"variant_{name}_{law}"][0] for name in ("pairs_slipping", "growth"))
+        pairs = variables[f"variant_pairs_slipping_{law}"][0]
+        growth = variables[f"variant_growth_{law}"][0]
         assert np.isfinite(pairs).all()
         np.testing.assert_array_equal(np.isfinite(growth), pairs > 0)
 

@@ -149,7 +149,8 @@ def test_a_walk_of_other_choices_or_a_broken_file_is_passed_over(tmp_path):
 def test_a_walk_from_another_packing_is_passed_over(tmp_path):
     """Packings made anew in another way have the same name and place."""
     one = packings(reference(LOOSE)[1])
-    marks = [fingerprint(of) for of in (one, one, packings(reference(LOOSE)[1].at(0.865)))]
+    denser = packings(reference(LOOSE)[1].at(0.865))
+    marks = [fingerprint(block) for block in (one, one, denser)]
     assert marks[0] == marks[1] != marks[2]
     keeping = Keeping(tmp_path / "x.nc", (LAW, CHOICES, marks[0]), seconds=-1.0)
     keeping.kept("seed-0")

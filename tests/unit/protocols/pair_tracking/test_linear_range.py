@@ -23,9 +23,9 @@ def balance() -> Balance:
     return Balance.of(start.packing, rule)
 
 
-def motions(of: Balance) -> np.ndarray:
+def motions(equilibrium: Balance) -> np.ndarray:
     """The unstable mode of the state, and some at random."""
-    draws = np.random.default_rng(5).standard_normal((7, 2, of.packing.n, 3))
+    draws = np.random.default_rng(5).standard_normal((7, 2, equilibrium.packing.n, 3))
     return np.stack([state()[0].mode, *(draws[:, 0] + 1j * draws[:, 1])], axis=2)
 
 
@@ -41,62 +41,70 @@ def first_change(packing, mode: np.ndarray) -> tuple[float, bool]:
         turned = [packing.displaced((size * mode * phase).real[:, :2]) for phase in TURN]
         if any(keys(one) != before for one in turned):
             moved = [nonaffine_motion(packing, one)[:, :2] for one in turned]
-            square = np.mean([(of**2).sum(axis=1).mean() for of in moved])
+            square = np.mean([(equilibrium**2).sum(axis=1).mean() for equilibrium in moved])
             return float(square), any(before - keys(one) for one in turned)
     raise AssertionError("no contact changed")
 
 
 @pytest.mark.parametrize("opens", [True, False])
 def test_the_room_is_where_contacts_change_on_the_way(opens):
-    of = balance() if opens else nearly_closed(balance())
-    modes = motions(of)
-    found = [first_change(of.packing, mode) for mode in np.moveaxis(modes, 2, 0)]
-    np.testing.assert_allclose(rooms(of, modes), [square for square, _ in found], rtol=0.03)
+    equilibrium = balance() if opens else nearly_closed(balance())
+    modes = motions(equilibrium)
+    found = [first_change(equilibrium.packing, mode) for mode in np.moveaxis(modes, 2, 0)]
+    np.testing.assert_allclose(
+        rooms(equilibrium, modes), [square for square, _ in found], rtol=0.03
+    )
     assert {opened for _, opened in found} == {opens}
 
 
-def nearly_closed(of: Balance) -> Balance:
+def nearly_closed(equilibrium: Balance) -> Balance:
     """The narrowest gap left with 1e-6 d by a grain that is made larger."""
-    i, j = np.tril_indices(of.packing.n, -1)
-    away = of.packing.position[i] - of.packing.position[j]
-    box = of.packing.box_length
+    i, j = np.tril_indices(equilibrium.packing.n, -1)
+    away = equilibrium.packing.position[i] - equilibrium.packing.position[j]
+    box = equilibrium.packing.box_length
     up = np.rint(away[:, 1] / box)
-    away -= box * np.stack([of.packing.strain * up, up], axis=1)
+    away -= box * np.stack([equilibrium.packing.strain * up, up], axis=1)
     away[:, 0] -= box * np.rint(away[:, 0] / box)
-    gap = np.hypot(*away.T) - 0.5 * (of.packing.diameter[i] + of.packing.diameter[j])
+    gap = np.hypot(*away.T) - 0.5 * (
+        equilibrium.packing.diameter[i] + equilibrium.packing.diameter[j]
+    )
     gap[gap < 0.0] = np.inf
-    diameter = of.packing.diameter.copy()
+    diameter = equilibrium.packing.diameter.copy()
     diameter[i[np.argmin(gap)]] += 2.0 * (gap.min() - 1e-6)
-    return Balance.of(replace(of.packing, diameter=diameter), of.interaction)
+    return Balance.of(replace(equilibrium.packing, diameter=diameter), equilibrium.interaction)
 
 
 def test_the_room_is_one_of_a_direction_and_not_of_a_vector():
-    of = balance()
-    modes = motions(of)
-    np.testing.assert_allclose(rooms(of, 1e-7 * np.exp(0.3j) * modes), rooms(of, modes))
+    equilibrium = balance()
+    modes = motions(equilibrium)
+    np.testing.assert_allclose(
+        rooms(equilibrium, 1e-7 * np.exp(0.3j) * modes), rooms(equilibrium, modes)
+    )
 
 
 def test_a_loose_grain_takes_no_room():
     """A grain that only one contact holds is put down at zero overlap."""
-    of = balance()
-    weakest = np.argmin(of.contacts.overlap)
-    grain = of.contacts.i[weakest]
-    held = np.arange(of.packing.n) != grain
-    shrunk = narrowed(of)
-    assert rooms(shrunk, motions(of)).max() < 1e-15
-    assert rooms(replace(shrunk, held=held), motions(of)).min() > 1e-12
+    equilibrium = balance()
+    weakest = np.argmin(equilibrium.contacts.overlap)
+    grain = equilibrium.contacts.i[weakest]
+    held = np.arange(equilibrium.packing.n) != grain
+    shrunk = narrowed(equilibrium)
+    assert rooms(shrunk, motions(equilibrium)).max() < 1e-15
+    assert rooms(replace(shrunk, held=held), motions(equilibrium)).min() > 1e-12
 
 
-def narrowed(of: Balance) -> Balance:
+def narrowed(equilibrium: Balance) -> Balance:
     """The weakest contact left with an overlap of 1e-9 d by a grain that is made smaller."""
-    weakest = np.argmin(of.contacts.overlap)
-    diameter = of.packing.diameter.copy()
-    diameter[of.contacts.i[weakest]] -= 2.0 * (of.contacts.overlap[weakest] - 1e-9)
-    return Balance.of(replace(of.packing, diameter=diameter), of.interaction)
+    weakest = np.argmin(equilibrium.contacts.overlap)
+    diameter = equilibrium.packing.diameter.copy()
+    diameter[equilibrium.contacts.i[weakest]] -= 2.0 * (
+        equilibrium.contacts.overlap[weakest] - 1e-9
+    )
+    return Balance.of(replace(equilibrium.packing, diameter=diameter), equilibrium.interaction)
 
 
-def seen(of: Balance) -> Seen:
-    return seen_by(ByLapack(), of)
+def seen(equilibrium: Balance) -> Seen:
+    return seen_by(ByLapack(), equilibrium)
 
 
 def test_a_state_next_to_a_change_of_contacts_is_passed_over():
@@ -111,14 +119,17 @@ def test_a_state_next_to_a_change_of_contacts_is_passed_over():
 
 
 def test_of_the_pairs_of_a_state_the_fastest_with_room_is_taken(monkeypatch):
-    of = seen(balance())
-    growth, room = of.pairs.growth, rooms(of.balance, of.motions(np.arange(len(of.pairs.value))))
+    equilibrium = seen(balance())
+    growth, room = (
+        equilibrium.pairs.growth,
+        rooms(equilibrium.balance, equilibrium.motions(np.arange(len(equilibrium.pairs.value)))),
+    )
     fastest = np.argmax(growth)
     assert room[fastest] < room.max()
     monkeypatch.setattr(
         "grainmodes.protocols.pair_tracking.linear_range.LINEAR", (0.0, room[fastest])
     )
-    chosen = fastest_with_room(of, 0.0)
+    chosen = fastest_with_room(equilibrium, 0.0)
     assert chosen.growth == growth[room > room[fastest]].max()
     assert chosen.room == room[chosen.place]
 

@@ -288,7 +288,7 @@ def test_equation_25_needs_the_other_vector_in_its_last_term():
     mass = generalized_mass(start.packing.mass).ravel()
     u_r, u_i = start.mode.real.ravel(), start.mode.imag.ravel()
     found, value = matrix @ u_i / mass, start.eigenvalue
-    right, printed = (value.imag * u_r + value.real * of for of in (u_i, u_r))
+    right, printed = (value.imag * u_r + value.real * vector for vector in (u_i, u_r))
     assert np.abs(found - right).max() < 1e-13
     assert np.abs(found - printed).max() > 0.01
 
