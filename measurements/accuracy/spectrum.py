@@ -204,7 +204,7 @@ def _measured(packings: list[Packing], what: str) -> Iterator[Row]:
 
 def sampled(name: str, setting: float, problems: list[Problem]) -> list[tuple[Found, float]]:
     """The spectrum of every problem, and its CPU seconds."""
-    problems[0].shift().to(1.0)
+    problems[0].shift().factor_at(1.0)
     return [timed(METHODS[name].find, of, setting, at_least=LEAST) for of in problems]
 
 

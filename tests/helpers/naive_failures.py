@@ -43,7 +43,7 @@ def eigenpairs_near(shift: SymmetricShift, sigma: float, size: int, block: int):
     """Eigenpairs nearest σ by block Lanczos, each block orthogonalised against all others once."""
     start = np.random.default_rng(0).standard_normal((shift.size, block))
     basis, following = np.zeros((shift.size, 0)), np.linalg.qr(start)[0]
-    shift.to(sigma)
+    shift.factor_at(sigma)
     while basis.shape[1] < size:
         basis = np.hstack([basis, following])
         image = shift.solve(following)

@@ -17,8 +17,9 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sparse
 
-from grainmodes.linalg.factorisation import SuperLU, ZeroPivotError
-from grainmodes.linalg.symmetric_shift import NUDGES, with_diagonal
+from grainmodes.linalg.factorisation import ZeroPivotError
+from grainmodes.linalg.superlu import SuperLU
+from grainmodes.linalg.symmetric_shift import SHIFT_PERTURBATIONS, with_diagonal
 
 ROUGH = 1e-12
 """max|(K − σ) x − b| over max|K| max|x|, above which a solution is refined.
@@ -48,7 +49,7 @@ class Shifted:
         Raises:
             ZeroPivotError: the matrix stays singular however the shift is nudged.
         """
-        for step in NUDGES:
+        for step in SHIFT_PERTURBATIONS:
             try:
                 self._factor(shift + step * self._scale)
                 return self
@@ -61,7 +62,7 @@ class Shifted:
         values[self._on_diagonal] -= shift
         entries = values, self._matrix.indices, self._matrix.indptr
         self._shifted = sparse.csc_array(entries, shape=self._matrix.shape)
-        self._factors.refill(values)
+        self._factors.refactor(values)
         answer = self._factors.solve(self._generic.astype(values.dtype))
         off = np.abs(self._shifted @ answer - self._generic).max()
         self._rough = not off < ROUGH * self._scale * np.abs(answer).max()
@@ -74,8 +75,8 @@ class Shifted:
         """(K − σ)⁻ᵀ b, nothing conjugated."""
         return self._refined(self._shifted.T, right, "T")
 
-    def _refined(self, matrix: sparse.sparray, right: np.ndarray, of: str) -> np.ndarray:
-        answer = self._factors.solve(right, of)
+    def _refined(self, matrix: sparse.sparray, right: np.ndarray, trans: str) -> np.ndarray:
+        answer = self._factors.solve(right, trans)
         if self._rough:
-            answer += self._factors.solve(right - matrix @ answer, of)
+            answer += self._factors.solve(right - matrix @ answer, trans)
         return answer

@@ -148,7 +148,7 @@ class Balance:
             FloppyError: the backbone has zero modes beyond the translations.
         """
         symmetric = self.backbone_contacts.tangential_displacement is None
-        return PinnedFactor(self.matrix, symmetric, like=self.like)
+        return PinnedFactor(self.matrix, symmetric, reuse_ordering_of=self.like)
 
     @cached_property
     def fitted(self) -> Fitted | None:

@@ -71,7 +71,7 @@ def band_averages(
     shift = problem.shift(choices.factorisation)
     below = counts(shift, edges)
     count = np.diff(below)
-    given = {"method": "counting", "factorisation": shift.name}
+    given = {"method": "counting", "factorisation": shift.backend}
     if averages:
         given |= _averages(shift, problem, edges, below, choices)
     return Bands(edges, count, int(below[0]), problem.size, **given)

@@ -92,14 +92,14 @@ def _spectrum(measured: Measured, **more) -> Spectrum:
 
 def _by_windows(problem: Problem, forces, backend: str, processes: int) -> Spectrum:
     shift, edge = problem.shift(backend), floor(problem)
-    unstable, below = (shift.to(end).count for end in (-edge, edge))
+    unstable, below = (shift.factor_at(end).n_below for end in (-edge, edge))
     found = [_zero_modes(below - unstable, forces.shape[1])]
     if unstable:
         turned = replace(problem, matrix=-problem.matrix)
         below_zero = _window_by_window(turned, turned.shift(backend), forces, processes)
         found = [part.turned() for part in reversed(below_zero)] + found
     found += _window_by_window(problem, shift, forces, processes)
-    return _spectrum(Measured.joined(found), method="windows", factorisation=shift.name)
+    return _spectrum(Measured.joined(found), method="windows", factorisation=shift.backend)
 
 
 def floor(problem: Problem) -> float:
@@ -111,7 +111,7 @@ def _window_by_window(problem: Problem, shift, forces, processes: int) -> list[M
     """The modes of every λ ≥ `floor`."""
     parts = spectrum_slicing.split(shift, floor(problem), problem.bound)
     measure = partial(Measured.of, problem.matrix, problem.k, forces)
-    return spectrum_slicing.measured(problem, shift.name, parts, measure, processes)
+    return spectrum_slicing.measured(problem, shift.backend, parts, measure, processes)
 
 
 def _zero_modes(count: int, forces: int) -> Measured:

@@ -37,7 +37,7 @@ class Sums(NamedTuple):
 
 def counts(shift: SymmetricShift, frequency: np.ndarray) -> np.ndarray:
     """Number of eigenvalues of J below ω² for each ω > 0 of `frequency` (E,); (E,) int."""
-    return np.array([shift.to(omega**2).count for omega in frequency])
+    return np.array([shift.factor_at(omega**2).n_below for omega in frequency])
 
 
 def rotational_sums(
@@ -57,7 +57,7 @@ def rotational_sums(
     diagonal = np.repeat(below, substeps)[: len(nodes)]
     for place in range(len(nodes)):
         if place % substeps:
-            diagonal[place] = shift.to(nodes[place]).count
+            diagonal[place] = shift.factor_at(nodes[place]).n_below
     rotation = np.arange(shift.size) % k == 2
     single = _cells(shift, nodes, diagonal, rotation)
     joined = _cells(shift, nodes[::2], diagonal[::2], rotation)
@@ -76,8 +76,8 @@ def _cells(shift: SymmetricShift, nodes, diagonal, rotation) -> np.ndarray:
     total = np.zeros(len(nodes) - 1)
     for cell in np.flatnonzero(np.diff(diagonal)):
         a, b = nodes[cell : cell + 2]
-        rotations_first = shift.to(np.where(rotation, b, a)).count - diagonal[cell]
-        rotations_last = diagonal[cell + 1] - shift.to(np.where(rotation, a, b)).count
+        rotations_first = shift.factor_at(np.where(rotation, b, a)).n_below - diagonal[cell]
+        rotations_last = diagonal[cell + 1] - shift.factor_at(np.where(rotation, a, b)).n_below
         total[cell] = 0.5 * (rotations_first + rotations_last)
     return total
 

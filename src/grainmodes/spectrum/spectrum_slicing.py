@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.linalg.block_lanczos import Krylov, Pairs
+from grainmodes.linalg.block_lanczos import Eigenpairs, KrylovSpace
 from grainmodes.linalg.symmetric_shift import SymmetricShift
 from grainmodes.spectrum.problem import Problem
 
@@ -64,7 +64,7 @@ class Window(NamedTuple):
 def split(shift: SymmetricShift, low: float, high: float) -> list[Window]:
     """Windows that hold all eigenvalues of [low, high), ascending; 0 < low < high."""
     size = WINDOW if shift.size < LARGE else WINDOW * 2 // 5
-    start, stop = (low, shift.to(low).count), (high, shift.to(high).count)
+    start, stop = (low, shift.factor_at(low).n_below), (high, shift.factor_at(high).n_below)
     if stop[1] <= start[1]:
         return []
     return list(_split(shift, *_tightened(shift, start, stop), size))
@@ -76,11 +76,15 @@ def _tightened(shift: SymmetricShift, start, stop):
     inner = high
     while inner > LOOSE * low:
         middle = np.sqrt(low * inner)
-        low, inner = (middle, inner) if shift.to(middle).count == below_low else (low, middle)
+        low, inner = (
+            (middle, inner) if shift.factor_at(middle).n_below == below_low else (low, middle)
+        )
     inner = low
     while high > LOOSE * inner:
         middle = np.sqrt(high * inner)
-        high, inner = (middle, inner) if shift.to(middle).count == below_high else (high, middle)
+        high, inner = (
+            (middle, inner) if shift.factor_at(middle).n_below == below_high else (high, middle)
+        )
     return (low, below_low), (high, below_high)
 
 
@@ -91,12 +95,12 @@ def _split(shift: SymmetricShift, start, stop, size: int) -> Iterator[Window]:
         return
     pieces = -(-modes // size)
     if high > WIDE * low:
-        middle = np.sqrt(low * high), shift.to(np.sqrt(low * high)).count
+        middle = np.sqrt(low * high), shift.factor_at(np.sqrt(low * high)).n_below
     elif pieces > 1 and high - low > RESOLUTION * high:
         aim = below_low + modes * (pieces // 2) / pieces
         middle = between(shift, start, stop, aim, SLACK * size)
     elif _crowded(shift, low, high, modes):
-        middle = 0.5 * (low + high), shift.to(0.5 * (low + high)).count
+        middle = 0.5 * (low + high), shift.factor_at(0.5 * (low + high)).n_below
     else:
         yield Window(low, high, modes)
         return
@@ -109,7 +113,10 @@ def _crowded(shift: SymmetricShift, low: float, high: float, modes: int) -> bool
     width = high - low
     if width <= RESOLUTION * high:
         return False
-    around = shift.to(high + 0.5 * width).count - shift.to(max(low - 0.5 * width, low / 2)).count
+    around = (
+        shift.factor_at(high + 0.5 * width).n_below
+        - shift.factor_at(max(low - 0.5 * width, low / 2)).n_below
+    )
     return around > CROWD * modes + CROWD * BLOCK
 
 
@@ -122,7 +129,7 @@ def between(shift: SymmetricShift, start, stop, aim: float, slack: float) -> tup
     while True:
         part = min(0.9, max(0.1, (aim - below_low) / (below_high - below_low)))
         middle = np.sqrt(low * high) if high > 4.0 * low else low + part * (high - low)
-        count = shift.to(middle).count
+        count = shift.factor_at(middle).n_below
         if abs(count - aim) <= slack or high - low <= RESOLUTION * high:
             return float(middle), count
         if count < aim:
@@ -131,7 +138,7 @@ def between(shift: SymmetricShift, start, stop, aim: float, slack: float) -> tup
             high, below_high = middle, count
 
 
-def eigenpairs(shift: SymmetricShift, window: Window, seed: int = 0) -> Pairs:
+def eigenpairs(shift: SymmetricShift, window: Window, seed: int = 0) -> Eigenpairs:
     """All eigenpairs of a window, ascending; one that resists is halved.
 
     Raises:
@@ -139,15 +146,17 @@ def eigenpairs(shift: SymmetricShift, window: Window, seed: int = 0) -> Pairs:
     """
     low, high, modes = window
     sigma = 0.5 * (low + high)
-    krylov = Krylov(shift.to(sigma), sigma, _block(shift), int(LARGEST * modes) + 12 * BLOCK, seed)
-    below = shift.count
+    krylov = KrylovSpace(
+        shift.factor_at(sigma), sigma, _block(shift), int(LARGEST * modes) + 12 * BLOCK, seed
+    )
+    below = shift.n_below
     krylov.grow(int(FIRST * modes) + BLOCK)
     while True:
-        ritz = krylov.ritz()
+        ritz = krylov.ritz_pairs()
         inside = np.flatnonzero((ritz.values >= low) & (ritz.values < high))
         if len(inside) == modes and ritz.converged[inside].all():
-            return krylov.pairs(ritz, inside)
-        if krylov.full:
+            return krylov.eigenpairs(ritz, inside)
+        if krylov.is_full:
             break
         krylov.grow(krylov.size + 3 * BLOCK)
     if high - low <= RESOLUTION * high:
@@ -155,10 +164,10 @@ def eigenpairs(shift: SymmetricShift, window: Window, seed: int = 0) -> Pairs:
             f"{np.count_nonzero(ritz.converged[inside])} eigenpairs converged between {low} and "
             f"{high}, where {modes} were counted"
         )
-    lower = below - shift.to(low).count
+    lower = below - shift.factor_at(low).n_below
     halves = Window(low, sigma, lower), Window(sigma, high, modes - lower)
     parts = [eigenpairs(shift, half, seed) for half in halves if half.modes]
-    return Pairs(*(np.concatenate(columns, axis=-1) for columns in zip(*parts, strict=True)))
+    return Eigenpairs(*(np.concatenate(columns, axis=-1) for columns in zip(*parts, strict=True)))
 
 
 def _block(shift: SymmetricShift) -> int:
@@ -166,21 +175,21 @@ def _block(shift: SymmetricShift) -> int:
     return max(2, min(BLOCK, shift.size // 40))
 
 
-def nearest(shift: SymmetricShift, sigma: float, modes: int, seed: int = 0) -> Pairs:
+def nearest(shift: SymmetricShift, sigma: float, modes: int, seed: int = 0) -> Eigenpairs:
     """The `modes` eigenpairs nearest σ, ascending, the known zero modes left out.
 
     Raises:
         WindowError: they did not converge.
     """
     largest = int(LARGEST * modes) + 16 * BLOCK
-    krylov = Krylov(shift.to(sigma), sigma, _block(shift), largest, seed)
+    krylov = KrylovSpace(shift.factor_at(sigma), sigma, _block(shift), largest, seed)
     krylov.grow(int(FIRST * modes) + 2 * BLOCK)
     while True:
-        ritz = krylov.ritz()
+        ritz = krylov.ritz_pairs()
         close = np.argsort(np.abs(ritz.values - sigma), kind="stable")[:modes]
         if len(close) == modes and ritz.converged[close].all():
-            return krylov.pairs(ritz, close)
-        if krylov.full:
+            return krylov.eigenpairs(ritz, close)
+        if krylov.is_full:
             found = np.count_nonzero(ritz.converged[close])
             raise WindowError(f"{found} of {modes} eigenpairs nearest {sigma} converged")
         krylov.grow(krylov.size + 2 * BLOCK)

@@ -135,7 +135,7 @@ def test_its_spectrum_is_that_of_the_differences(name, slip):
     np.testing.assert_allclose(np.sort_complex(found.eigenvalue), expected, atol=1e-7)
     assert found.residual < 1e-13
     if not slip:
-        below = problem(packing, rule, keep_rattlers=True).shift().to(0.25).count
+        below = problem(packing, rule, keep_rattlers=True).shift().factor_at(0.25).n_below
         assert below == np.count_nonzero(expected.real < 0.25)
 
 

@@ -5,8 +5,9 @@ import pytest
 import scipy.sparse as sparse
 
 from grainmodes.linalg import general_shift
-from grainmodes.linalg.factorisation import SuperLU, ZeroPivotError
+from grainmodes.linalg.factorisation import ZeroPivotError
 from grainmodes.linalg.general_shift import Shifted
+from grainmodes.linalg.superlu import SuperLU
 
 
 def ladder(size: int) -> sparse.csr_array:
@@ -48,7 +49,7 @@ def test_a_matrix_that_stays_singular_is_refused(monkeypatch):
     def singular(self, values):
         raise ZeroPivotError("a pivot of the factorisation is zero")
 
-    monkeypatch.setattr(SuperLU, "refill", singular)
+    monkeypatch.setattr(SuperLU, "refactor", singular)
     with pytest.raises(ZeroPivotError, match="singular at sigma"):
         Shifted(MATRIX).to(0.5)
 

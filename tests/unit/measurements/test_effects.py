@@ -110,7 +110,7 @@ def test_without_friction_nothing_tangential_is_touched(monkeypatch):
 
 def test_springs_never_loaded_are_not_stored_and_take_the_symmetric_way(monkeypatch):
     packing = quenched(36, 0.92)
-    general = ((pinned_factor, "_General"), (scipy.linalg, "eig"), (scipy.linalg, "eigvals"))
+    general = ((pinned_factor, "_GeneralFactor"), (scipy.linalg, "eig"), (scipy.linalg, "eigvals"))
     refuse(monkeypatch, (History, "__init__"), *general)
     monkeypatch.setattr(Contacts, "displacement", property(None))
     contacts = find_contacts(packing)

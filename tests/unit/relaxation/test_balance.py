@@ -10,8 +10,9 @@ import scipy.sparse as sparse
 from example_packings import LAWS, MINIMAL, crowd, law_name, quenched, reference, with_slip
 from grainmodes.kernels.laws import interaction
 from grainmodes.kernels.permutations import odd
-from grainmodes.linalg.factorisation import SuperLU, ZeroPivotError
+from grainmodes.linalg.factorisation import ZeroPivotError
 from grainmodes.linalg.pinned_factor import PinnedFactor
+from grainmodes.linalg.superlu import SuperLU
 from grainmodes.packing.contacts import rattlers
 from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.state import find_contacts, nonaffine_motion
@@ -126,7 +127,7 @@ def test_a_state_with_negative_eigenvalues_is_unstable():
     assert not slipping(0, 1.0, squeezed=0.9).unstable
     assert not sheared(2).unstable
     turned = PinnedFactor(-sheared(1).matrix, symmetric=False)
-    assert turned.unstable and turned._factor.count == 64 * 3 - 2
+    assert turned.unstable and turned._factor.n_below == 64 * 3 - 2
 
 
 def test_negative_pivots_of_a_lopsided_matrix_are_no_instability():
@@ -135,7 +136,7 @@ def test_negative_pivots_of_a_lopsided_matrix_are_no_instability():
     now = first_balance(reference("hertz_n64_phi0.860_seed2")[1], HERTZIAN, choices)
     for step in range(1, 41):
         now, _ = step_to(1e-3 * step, now, choices)
-    assert now.factor._factor.count == 2
+    assert now.factor._factor.n_below == 2
     assert negative_eigenvalues(now) == 0
     assert np.linalg.eigvalsh((now.matrix + now.matrix.T).toarray())[0] < -0.1
     assert not now.unstable
@@ -156,11 +157,11 @@ def test_pivots_are_sought_where_elimination_in_order_fails(monkeypatch):
     def fail(self, values):
         raise ZeroPivotError("a pivot of the factorisation is zero")
 
-    monkeypatch.setattr(SuperLU, "refill", fail)
-    pivoted = PinnedFactor(state.matrix, symmetric=False, like=expected)
+    monkeypatch.setattr(SuperLU, "refactor", fail)
+    pivoted = PinnedFactor(state.matrix, symmetric=False, reuse_ordering_of=expected)
     assert pivoted.unstable == expected.unstable
     np.testing.assert_allclose(pivoted.solve(force), expected.solve(force), rtol=1e-8, atol=1e-9)
-    again = PinnedFactor(state.matrix, symmetric=False, like=pivoted)
+    again = PinnedFactor(state.matrix, symmetric=False, reuse_ordering_of=pivoted)
     np.testing.assert_allclose(again.solve(force), pivoted.solve(force), rtol=1e-12, atol=1e-13)
 
 
