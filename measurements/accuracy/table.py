@@ -68,17 +68,21 @@ def read(path: Path) -> Table:
 
     Raises:
         OSError: it cannot be read.
-        ValueError: it is no such file.
+        ValueError: it is not such a file.
     """
     lines = path.read_text(encoding="utf-8").splitlines()
     pairs = (line[1:].partition(":") for line in lines if line.startswith("#"))
     words = {name.strip(): text.strip() for name, _, text in pairs}
     missing = [name for name in WORDS if name not in words]
     if missing:
-        raise ValueError(f"{path}: no {', '.join(missing)} on top; needed is a file of measure.py")
+        raise ValueError(
+            f"{path}: expected a file of measure.py, got no {', '.join(missing)} in its head"
+        )
     rows = pd.read_csv(path, comment="#")
     if list(rows.columns) != list(Row._fields):
-        raise ValueError(f"{path}: its columns are not {', '.join(Row._fields)}")
+        raise ValueError(
+            f"{path}: expected the columns {', '.join(Row._fields)}, got {', '.join(rows.columns)}"
+        )
     return Table(words, rows)
 
 

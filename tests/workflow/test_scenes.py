@@ -83,13 +83,13 @@ def test_one_point_off_the_grid(study):
 def test_a_fraction_out_of_range_is_refused_by_its_job(fresh):
     target = "results/tiny/trajectories/n~16/phi~0.5/seeds~0000-0000.nc"
     said = fresh.run(target, succeeds=False)
-    assert "--phi = 0.5: allowed is a number from 0.8 to 1.2" in said
+    assert "--phi: expected a number from 0.8 to 1.2" in said
 
 
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ({"colour": 1}, "unknown key 'colour', allowed are study, grids"),
+        ({"colour": 1}, "unknown key 'colour', expected one of study, grids"),
         ({"grids": [SCENE["grids"][0] | {"n": [4]}]}, "can touch two images of another"),
         ({"grids": SCENE["grids"] * 2}, "also lies in grids[0]"),
     ],

@@ -57,7 +57,7 @@ def form(path: Path) -> Callable[[list[Verdict]], str]:
         ValueError: the suffix is neither .md nor .csv.
     """
     if path.suffix not in FORMS:
-        raise ValueError(f"{path}: the suffix is {path.suffix!r}, allowed are {', '.join(FORMS)}")
+        raise ValueError(f"{path}: expected a suffix among {', '.join(FORMS)}, got {path.suffix!r}")
     return FORMS[path.suffix]
 
 

@@ -45,5 +45,9 @@ def _check_output(output: Path | None) -> None:
     if output is None:
         return
     output.parent.mkdir(parents=True, exist_ok=True)
-    if output.is_dir() or not os.access(output.parent, os.W_OK):
-        raise OSError(f"{output}: cannot be written, needed is a file name in a writable folder")
+    if output.is_dir():
+        raise OSError(f"{output}: cannot be written, expected the name of a file, got a folder")
+    if not os.access(output.parent, os.W_OK):
+        raise OSError(
+            f"{output}: cannot be written, expected a writable folder, got {output.parent}"
+        )

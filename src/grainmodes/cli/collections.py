@@ -40,7 +40,7 @@ def _source(arguments: Namespace) -> Path | list[Path]:
         return arguments.data
     if len(arguments.data) > 1:
         raise ValueError(
-            f"{arguments.figure} is drawn from one ensemble, not {len(arguments.data)}"
+            f"figure {arguments.figure}: expected one ensemble, got {len(arguments.data)} files"
         )
     return arguments.data[0]
 

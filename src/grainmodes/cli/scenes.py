@@ -15,7 +15,7 @@ def cost(arguments: Namespace) -> None:
     from grainmodes.cost import COSTS, read_table, report
 
     if arguments.cores < 1:
-        raise ValueError(f"--cores = {arguments.cores}: allowed is a whole number from 1")
+        raise ValueError(f"--cores: expected a whole number from 1, got {arguments.cores}")
     scene = read_scene(arguments.config)
     print(report(scene, read_table(arguments.costs or COSTS), arguments.cores))
 

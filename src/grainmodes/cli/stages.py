@@ -79,7 +79,7 @@ def spectrum(arguments: Namespace) -> None:
     law, kind = scene.law_at(arguments.kt), scene.grids[0].observables.spectrum
     if kind == "none":
         raise ConfigurationError(
-            "observables.spectrum = 'none': allowed here are counts, bands, eigenvalues and modes"
+            "observables.spectrum: expected one of counts, bands, eigenvalues, modes, got 'none'"
         )
     rattlers, choices = scene.protocol.rattlers, scene.protocol.spectrum
     processes = arguments.processes
@@ -214,11 +214,11 @@ def _with_options(arguments: Namespace) -> dict:
 
 @contextmanager
 def _opened(path: Path, stage: str) -> Iterator[Block]:
-    """The block in a file, if that stage made it; complaints about its content name the file."""
+    """The block in a file, if that stage made it; errors about its content name the file."""
     block = read_block(path)
     found = block.attributes.get("stage", "something else")
     if found != stage:
-        raise BlockError(f"{path}: holds {found}, needed here are {stage}")
+        raise BlockError(f"{path}: expected {stage}, got {found}")
     try:
         yield block
     except BlockError as error:

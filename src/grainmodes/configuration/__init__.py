@@ -24,7 +24,7 @@ def scene_of(config: dict) -> Scene:
     """The scene that a configuration describes.
 
     Raises:
-        ConfigurationError: with a line for every mistake: the key, its value, what is allowed.
+        ConfigurationError: with a line for every mistake: the key, what is expected, its value.
     """
     full = complete(config, schema())
     found = mistakes(full, schema()) or list(rules.conflicts(full))
@@ -47,5 +47,5 @@ def read_scene(path: str | Path) -> Scene:
         reason = " ".join(str(error).split())
         raise ConfigurationError(f"{path}: not a readable YAML file ({reason})") from error
     if not isinstance(config, dict):
-        raise ConfigurationError(f"{path}: holds no keys, needed are study and grids")
+        raise ConfigurationError(f"{path}: expected the keys study and grids, got no keys")
     return scene_of(config)

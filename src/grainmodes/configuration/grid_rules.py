@@ -37,11 +37,12 @@ def _friction(config: dict) -> Iterator[str]:
         kt = grid.get("kt")
         if friction and kt is None:
             yield (
-                f"grids[{place}]: key 'kt' is missing, needed is a list, or effects.friction: false"
+                f"grids[{place}]: key 'kt' is missing, expected a list of numbers, or "
+                "effects.friction: false"
             )
         if not friction and kt is not None:
             yield (
-                f"grids[{place}].kt = {kt}: effects.friction is false, allowed is a grid without kt"
+                f"grids[{place}].kt: expected no key kt because effects.friction is false, got {kt}"
             )
 
 
@@ -53,9 +54,9 @@ def _boxes(config: dict) -> Iterator[str]:
             side = math.sqrt(n * AREA_PER_GRAIN / phi)
             if side < SMALLEST_BOX:
                 yield (
-                    f"grids[{place}].n = {n}: at phi = {phi} the box is {side:.2f} d wide and a "
-                    f"grain can touch two images of another, allowed are boxes of {SMALLEST_BOX} d,"
-                    f" so n >= {fewest}"
+                    f"grids[{place}].n: expected at least {fewest} grains, because at phi = {phi} "
+                    f"a grain can touch two images of another in a box narrower than "
+                    f"{SMALLEST_BOX} d, got {n} grains in a box of {side:.2f} d"
                 )
 
 
@@ -67,8 +68,8 @@ def _points(config: dict) -> Iterator[str]:
         if common:
             n, phi, kt = common.n, common.phi, common.kt
             yield (
-                f"grids[{second}]: the point n = {n}, phi = {phi}, kt = {kt} also lies in "
-                f"grids[{first}], allowed is every point in one grid"
+                f"grids[{second}]: expected every point in one grid only, got n = {n}, "
+                f"phi = {phi}, kt = {kt}, which also lies in grids[{first}]"
             )
 
 
@@ -80,9 +81,9 @@ def _blocks(config: dict) -> Iterator[str]:
         fewer, more = sorted((one["seeds"], other["seeds"]))
         if shared and fewer != more and fewer % block:
             yield (
-                f"grids[{second}].seeds = {other['seeds']}: grids[{first}] has {one['seeds']} "
-                f"samples of n = {shared[0]} and both share files of {block} (block), allowed are "
-                "equal numbers, or the smaller one a whole number of blocks"
+                f"grids[{second}].seeds: expected {one['seeds']} as in grids[{first}], or the "
+                f"smaller of both a multiple of block = {block}, because both share the files of "
+                f"n = {shared[0]}, got {other['seeds']}"
             )
 
 
@@ -91,6 +92,6 @@ def _rattlers(config: dict) -> Iterator[str]:
         kind = grid["observables"]["spectrum"]
         if grid["observables"]["rattlers"] and kind not in ("eigenvalues", "modes"):
             yield (
-                f"grids[{place}].observables.rattlers = True: observables.spectrum is {kind}, "
-                "allowed with rattlers are eigenvalues and modes"
+                f"grids[{place}].observables.spectrum: expected eigenvalues or modes because "
+                f"observables.rattlers is true, got {kind}"
             )

@@ -28,8 +28,8 @@ def _damped(config: dict) -> Iterator[str]:
     frictionless = any(0.0 in grid.get("kt", [0.0]) for grid in config["grids"])
     if config["protocol"]["step_strain"]["relaxation"] == "damped" and frictionless:
         yield (
-            "protocol.step_strain.relaxation = 'damped': rotation does not exist at kt = 0, "
-            "allowed there is newton"
+            "protocol.step_strain.relaxation: expected 'newton' because at kt = 0 grains do not "
+            "rotate, got 'damped'"
         )
 
 
@@ -38,13 +38,13 @@ def _coulomb(config: dict) -> Iterator[str]:
     name, mu = law["tangential"], law["friction_coefficient"]
     if name in ELASTIC_LAWS and mu is not None:
         yield (
-            f"contact_law.friction_coefficient = {mu}: the tangential law {name!r} has none, "
-            f"allowed with it are {', '.join(COULOMB_LAWS)}"
+            f"contact_law.friction_coefficient: expected none for the tangential law {name!r} "
+            f"(only {', '.join(COULOMB_LAWS)} have one), got {mu}"
         )
     if name in COULOMB_LAWS and mu is None:
         yield (
-            f"contact_law.friction_coefficient is missing: the tangential law {name!r} needs a "
-            "number above 0"
+            "contact_law.friction_coefficient: expected a number above 0 for the tangential law "
+            f"{name!r}, got none"
         )
 
 
@@ -52,11 +52,12 @@ def _variants(config: dict) -> Iterator[str]:
     asked = [grid for grid in config["grids"] if grid["observables"]["variants"]]
     if asked and config["contact_law"]["friction_coefficient"] is None:
         yield (
-            "observables.variants = True: contact_law.friction_coefficient is missing, and with it "
-            f"a tangential law that has one: {', '.join(COULOMB_LAWS)}"
+            "contact_law.friction_coefficient: expected a number above 0 because "
+            "observables.variants is true, and a tangential law that has one "
+            f"({', '.join(COULOMB_LAWS)}), got none"
         )
     for n in (n for grid in asked for n in grid["n"] if n > MOST_GRAINS):
-        yield f"observables.variants = True: n = {n}, allowed are at most {MOST_GRAINS} grains"
+        yield f"observables.variants: expected grids of at most {MOST_GRAINS} grains, got n = {n}"
 
 
 def _steps(config: dict) -> Iterator[str]:
@@ -64,13 +65,13 @@ def _steps(config: dict) -> Iterator[str]:
     step, start = compression["phi_step"], compression["initial_phi"]
     if not _whole(CHECKPOINT_SPACING / step):
         yield (
-            f"protocol.compression.phi_step = {step}: allowed are steps that divide "
-            f"{CHECKPOINT_SPACING}, such as 1e-4"
+            "protocol.compression.phi_step: expected a step that divides "
+            f"{CHECKPOINT_SPACING}, such as 1e-4, got {step}"
         )
     elif not _whole((LOWEST_CHECKPOINT - start) / step):
         yield (
-            f"protocol.compression.initial_phi = {start}: allowed are values a whole number of "
-            f"steps of {step} below {LOWEST_CHECKPOINT}"
+            "protocol.compression.initial_phi: expected a value that lies a whole number of "
+            f"steps of {step} below {LOWEST_CHECKPOINT}, got {start}"
         )
 
 
@@ -78,11 +79,11 @@ def _shear(config: dict) -> Iterator[str]:
     shear = config["protocol"]["shear"]
     strain, step, smallest = shear["strain"], shear["step"], shear["smallest_step"]
     if not _whole(strain / step):
-        yield f"protocol.shear.strain = {strain}: allowed are whole numbers of steps of {step}"
+        yield f"protocol.shear.strain: expected a whole number of steps of {step}, got {strain}"
     if step < smallest or not _whole(math.log10(step / smallest)):
         yield (
-            f"protocol.shear.smallest_step = {smallest}: allowed are {step} and a tenth, "
-            "a hundredth and so on of it"
+            f"protocol.shear.smallest_step: expected {step} divided by 1, 10, 100 and so on, "
+            f"got {smallest}"
         )
 
 
@@ -90,10 +91,10 @@ def _figures(config: dict) -> Iterator[str]:
     grids = [Grid.of(grid) for grid in config["grids"]]
     for name in config.get("figures", []):
         if name not in FIGURES:
-            yield f"figures: unknown figure {name!r}, allowed are {', '.join(FIGURES)}"
+            yield f"figures: unknown figure {name!r}, expected one of {', '.join(FIGURES)}"
             continue
         for need in lacking(name, grids):
-            yield f"figures: {name!r} needs {NEEDED[need]}, which this scene does not ask for"
+            yield f"figures: {name!r} needs {NEEDED[need]}, which this scene does not request"
 
 
 NEEDED = {

@@ -44,7 +44,7 @@ def complete(value, rule: dict):
 
 
 def mistakes(value, rule: dict) -> list[str]:
-    """One sentence per key that breaks its rule: the key, its value, what is allowed."""
+    """One sentence per key that breaks its rule: the key, what is expected, its value."""
     from jsonschema import Draft202012Validator
 
     errors = Draft202012Validator(rule).iter_errors(value)
@@ -52,10 +52,10 @@ def mistakes(value, rule: dict) -> list[str]:
     return list(dict.fromkeys(line for error in ordered for line in _sentences(error)))
 
 
-def allowed(rule: dict) -> str:
-    """What a rule allows, in words.
+def expected(rule: dict) -> str:
+    """What a rule expects, in words.
 
-    >>> allowed({"type": "number", "minimum": 0.0, "maximum": 10.0, "unit": "k_N"})
+    >>> expected({"type": "number", "minimum": 0.0, "maximum": 10.0, "unit": "k_N"})
     'a number from 0.0 to 10.0 (k_N)'
     """
     if "enum" in rule:
@@ -63,7 +63,7 @@ def allowed(rule: dict) -> str:
     if "words" in rule:
         return rule["words"]
     if rule["type"] == "array":
-        return f"a list, each item {allowed(rule['items'])}"
+        return f"a list, each item {expected(rule['items'])}"
     kind = " or ".join(TYPES[name] for name in _types(rule) if name != "null")
     if rule.get("multipleOf") == 2:
         kind = kind.replace("whole", "whole even")
@@ -115,16 +115,17 @@ def _sentences(error) -> Iterator[str]:
     if error.validator == "additionalProperties":
         names = error.schema["properties"]
         for name in sorted(set(error.instance) - set(names)):
-            yield f"{where}unknown key {name!r}, allowed are {', '.join(names)}"
+            yield f"{where}unknown key {name!r}, expected one of {', '.join(names)}"
     elif error.validator == "required":
         for name in sorted(set(error.validator_value) - set(error.instance)):
             rule = error.schema["properties"][name]
-            yield f"{where}key {name!r} is missing, needed is {allowed(rule)}"
+            yield f"{where}key {name!r} is missing, expected {expected(rule)}"
     elif error.validator == "uniqueItems":
         twice = next(item for item in error.instance if error.instance.count(item) > 1)
-        yield f"{where}{twice!r} stands there twice, allowed is every value once"
+        yield f"{where}duplicate value {twice!r}: values must be unique"
     else:
-        yield f"{key or 'the scene'} = {_shown(error.instance)}: allowed is {allowed(error.schema)}"
+        what, got = expected(error.schema), _shown(error.instance)
+        yield f"{key or 'the scene'}: expected {what}, got {got}"
 
 
 def _key(path) -> str:

@@ -72,7 +72,7 @@ def read_table(path: str | Path = COSTS) -> Table:
     """The table of a file.
 
     Raises:
-        ValueError: the file is no such table.
+        ValueError: the file is not such a table.
         OSError: it cannot be read.
     """
     try:
@@ -81,4 +81,6 @@ def read_table(path: str | Path = COSTS) -> Table:
         return Table(**content | {"laws": laws})
     except (yaml.YAMLError, TypeError, KeyError, AttributeError) as error:
         reason = " ".join(str(error).split())
-        raise ValueError(f"{path}: not a table of costs ({reason}); see {COSTS}") from error
+        raise ValueError(
+            f"{path}: expected a table of costs such as {COSTS}, got another file ({reason})"
+        ) from error

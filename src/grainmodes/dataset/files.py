@@ -78,8 +78,8 @@ def _write(file: netCDF4.Dataset, block: Block) -> None:
                 file.createDimension(dimension, length)
             elif len(file.dimensions[dimension]) != length:
                 raise ValueError(
-                    f"{name}: dimension {dimension} has length {length}, "
-                    f"elsewhere {len(file.dimensions[dimension])}"
+                    f"{name}: expected length {len(file.dimensions[dimension])} of dimension "
+                    f"{dimension} as in the variables before it, got {length}"
                 )
         compressed = {"zlib": True, "complevel": 1, "shuffle": True} if array.ndim > 1 else {}
         variable = file.createVariable(name, row.dtype, row.dimensions, **compressed)
@@ -108,7 +108,11 @@ def read_block(path: str | Path) -> Block:
         ) from error
     unknown = sorted(set(variables) - set(VARIABLES))
     if unknown:
-        raise BlockError(f"{path}: unknown variable {', '.join(unknown)}, see docs/data.md")
+        raise BlockError(
+            f"{path}: unknown variable {', '.join(unknown)}, expected names of docs/data.md"
+        )
     if "seed" not in variables:
-        raise BlockError(f"{path}: holds no variable 'seed', so it is not a block of samples")
+        raise BlockError(
+            f"{path}: expected a block of samples, got a file without the variable 'seed'"
+        )
     return Block(variables, attributes)

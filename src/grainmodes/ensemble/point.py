@@ -79,7 +79,7 @@ def _by_stage(blocks: dict[str, Block]) -> dict[str, dict[str, Block]]:
         stage = block.attributes.get("stage")
         if stage not in STAGES:
             raise BlockError(
-                f"{name}: attribute stage is {stage!r}, allowed are {', '.join(STAGES)}"
+                f"{name}: expected stage to be one of {', '.join(STAGES)}, got {stage!r}"
             )
         found[stage][name] = block
     return {stage: _in_seed_order(stage, members) for stage, members in found.items() if members}
@@ -90,7 +90,9 @@ def _in_seed_order(stage: str, members: dict[str, Block]) -> dict[str, Block]:
     for name, block in members.items():
         for seed in block.variables["seed"].tolist():
             if seed in owner:
-                raise BlockError(f"{name}: {stage} of seed {seed} also stands in {owner[seed]}")
+                raise BlockError(
+                    f"{name}: duplicate seed {seed} of {stage}, {owner[seed]} holds it too"
+                )
             owner[seed] = name
     return dict(sorted(members.items(), key=lambda item: item[1].variables["seed"].min()))
 
@@ -139,11 +141,11 @@ def _shared(attribute: str, blocks: dict[str, Block]) -> object:
         if attribute in block.attributes
     }
     if not values:
-        raise BlockError(f"{', '.join(blocks)}: no block has the attribute {attribute}")
+        raise BlockError(f"{', '.join(blocks)}: expected the attribute {attribute}, got none")
     (first, value), *others = values.items()
     for name, other in others:
         if other != value:
-            raise BlockError(f"{name}: {attribute} is {other}, but {value} in {first}")
+            raise BlockError(f"{name}: expected {attribute} = {value} as in {first}, got {other}")
     return value
 
 

@@ -37,7 +37,9 @@ def open_ensemble(path: str | Path) -> xr.Dataset:
     missing = [name for name in DIMENSIONS if name not in ensemble.dims]
     if missing:
         ensemble.close()
-        raise BlockError(f"{path}: not an ensemble, it lacks the dimension {missing[0]}")
+        raise BlockError(
+            f"{path}: expected an ensemble, got a file without the dimension {missing[0]}"
+        )
     return ensemble
 
 
@@ -49,7 +51,7 @@ def variable(ensemble: xr.Dataset, name: str) -> xr.DataArray:
     """
     if name not in ensemble:
         source = ensemble.encoding.get("source", "the ensemble")
-        raise BlockError(f"{source}: holds no {name}; its study did not ask for that observable")
+        raise BlockError(f"{source}: holds no {name}; its study did not request that observable")
     return ensemble[name].transpose("n", "phi", "kt", "seed", ...)
 
 

@@ -56,12 +56,14 @@ def write_ensemble(point_paths: list[str | Path], out_path: str | Path, config: 
 
 def _in_grid_order(paths: list[str | Path]) -> list[Path]:
     if not paths:
-        raise BlockError("an ensemble needs at least one point; none was given")
+        raise BlockError("an ensemble: expected at least one point, got none")
     found: dict[tuple, Path] = {}
     for path, block in _points(paths):
         point = _coordinates(block)
         if point in found:
-            raise BlockError(f"{path}: the point (n, phi, kt) = {point} also is {found[point]}")
+            raise BlockError(
+                f"{path}: duplicate point (n, phi, kt) = {point}, {found[point]} holds it too"
+            )
         found[point] = path
     return [found[point] for point in sorted(found)]
 
@@ -70,7 +72,10 @@ def _points(paths: list[str | Path]) -> Iterator[tuple[Path, Block]]:
     for path in map(Path, paths):
         block = read_block(path)
         if block.attributes.get("stage") != "point":
-            raise BlockError(f"{path}: attribute stage is not 'point'; gather its blocks first")
+            stage = block.attributes.get("stage")
+            raise BlockError(
+                f"{path}: expected stage to be 'point', got {stage!r}; gather its blocks first"
+            )
         yield path, block
 
 

@@ -50,7 +50,7 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
         OSError: a file cannot be written.
     """
     if name not in FIGURES:
-        raise ValueError(f"figure {name!r}: expected one of {', '.join(FIGURES)}")
+        raise ValueError(f"figure: expected one of {', '.join(FIGURES)}, got {name!r}")
     module = import_module(f"grainmodes.figures.{FIGURES[name].room}.{name}")
     with _opened(name, data) as source:
         table = module.table(source, Options.read(name, options))

@@ -24,11 +24,13 @@ def to_step(value: np.ndarray) -> np.ndarray:
     """Real steps (2, N) in units of the box as integers in units of 2⁻⁶⁴, whole boxes left out.
 
     Raises:
-        PackingError: a step is no number.
+        PackingError: a step is NaN or infinite.
     """
     bad = np.flatnonzero(~np.isfinite(value).all(axis=0))
     if len(bad):
-        raise PackingError(f"the step of grain {bad[0]} is {value[:, bad[0]]} boxes: no number")
+        raise PackingError(
+            f"the step of grain {bad[0]}: expected finite numbers, got {value[:, bad[0]]} boxes"
+        )
     step = np.rint((value - np.rint(value)) * 2.0**64)
     # Half a box, 2⁶³, is one more than an integer holds; it is also half a box back.
     return np.where(step < 2.0**63, step, -(2.0**63)).astype(np.int64)
@@ -39,42 +41,51 @@ def check_grains(position, diameter, mass) -> None:
     n = len(diameter)
     if position.shape != (n, 2) or mass.shape != (n,):
         raise PackingError(
-            f"positions {position.shape} and masses {mass.shape} do not fit {n} diameters"
+            f"expected positions ({n}, 2) and masses ({n},) for {n} diameters, "
+            f"got {position.shape} and {mass.shape}"
         )
     if n < 2:
-        raise PackingError(f"a packing needs at least 2 grains, got {n}")
+        raise PackingError(f"a packing: expected at least 2 grains, got {n}")
     for name, array in (("position", position), ("diameter", diameter), ("mass", mass)):
         bad = ~np.isfinite(array) if name == "position" else ~(np.isfinite(array) & (array > 0))
         if bad.any():
             grain = int(np.argwhere(bad)[0][0])
-            raise PackingError(f"{name} of grain {grain} is {array[grain]}: not a valid number")
+            kind = "finite" if name == "position" else "finite positive"
+            raise PackingError(
+                f"{name} of grain {grain}: expected {kind} numbers, got {array[grain]}"
+            )
 
 
 def check_rotation(rotation) -> None:
-    """Refuse rotations (N,), if there are any, that are no numbers."""
+    """Refuse rotations (N,), if there are any, that are NaN or infinite."""
     bad = [] if rotation is None else np.flatnonzero(~np.isfinite(rotation))
     if len(bad):
-        raise PackingError(f"rotation of grain {bad[0]} is {rotation[bad[0]]}: not a valid number")
+        raise PackingError(
+            f"rotation of grain {bad[0]}: expected a finite number, got {rotation[bad[0]]}"
+        )
 
 
 def check_springs(history) -> None:
-    """Refuse a history, if there is one, with a displacement that is no number."""
+    """Refuse a history, if there is one, with a spring state that is NaN or infinite."""
     if history is None:
         return
     bad = np.flatnonzero(~np.isfinite(history.tangential_displacement))
     if len(bad):
         i, j, s = (getattr(history, x)[bad[0]] for x in ("i", "j", "tangential_displacement"))
-        raise PackingError(f"the spring between grains {i} and {j} is {s}: not a valid number")
+        raise PackingError(
+            f"the spring between grains {i} and {j}: expected a finite number, got {s}"
+        )
 
 
 def check_box(diameter: np.ndarray, box_length: float, strain: float) -> None:
     """A touching pair must be the image that wrapping s to [−1/2, 1/2) finds: r √(1 + γ²) < L/2."""
     for name, value in (("box_length", box_length), ("strain", strain)):
         if not np.isfinite(value):
-            raise PackingError(f"{name} = {value}: not a valid number")
+            raise PackingError(f"{name}: expected a finite number, got {value}")
     least = 2.0 * diameter.max() * np.sqrt(1.0 + strain**2)
     if not box_length > least:
         raise PackingError(
-            f"box_length = {box_length} at strain {strain}: must exceed {least:.6g}, two diameters "
-            "times sqrt(1 + strain^2), or a grain meets two images of another"
+            f"box_length: expected more than {least:.6g} at strain {strain} (two diameters times "
+            "sqrt(1 + strain^2); otherwise a grain meets two images of another), "
+            f"got {box_length}"
         )

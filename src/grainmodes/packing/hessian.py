@@ -43,7 +43,7 @@ def effective_hessian(
         ValueError: an unknown `stiffness`.
     """
     if stiffness not in STIFFNESSES:
-        raise ValueError(f"stiffness {stiffness!r}: allowed are {', '.join(STIFFNESSES)}")
+        raise ValueError(f"stiffness: expected one of {', '.join(STIFFNESSES)}, got {stiffness!r}")
     curvature = -_normal_part(contacts, interaction, stiffness)
     if not is_frictionless(interaction):
         curvature = _with_tangential(curvature, contacts, interaction, stiffness)

@@ -104,7 +104,7 @@ class Packing:
             PackingError: φ is not positive, or its box too small.
         """
         if not phi > 0.0:
-            raise PackingError(f"phi = {phi}: needed is a positive area fraction")
+            raise PackingError(f"phi: expected a positive area fraction, got {phi}")
         area = np.sum(np.pi * self.diameter**2 / 4.0)
         box_length = float(np.sqrt(area / phi))
         check_box(self.diameter, box_length, self.strain)
@@ -123,7 +123,7 @@ class Packing:
         """Grains moved by (N, 2) in d, any number of boxes far; the rotation is left alone.
 
         Raises:
-            PackingError: a displacement is no number.
+            PackingError: a displacement is NaN or infinite.
         """
         s_y = displacement[:, 1] / self.box_length
         s_x = displacement[:, 0] / self.box_length - self.strain * s_y

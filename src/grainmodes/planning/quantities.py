@@ -69,7 +69,9 @@ def planned(ensemble: xr.Dataset, point: Point, target: float) -> list[Plan | Le
     of = ensemble.sel(dict(zip(("n", "phi", "kt"), point, strict=True)))
     of = of.sel(seed=of["converged"] == 1)
     if of.sizes["seed"] < LEAST:
-        return [Left(f"{of.sizes['seed']} converged seeds, needed are {LEAST} for a spread")]
+        return [
+            Left(f"expected at least {LEAST} converged seeds for a spread, got {of.sizes['seed']}")
+        ]
     if not (of["jammed"] == 1).any():
         return [Left("no converged seed is jammed: means are 0 and have no relative error")]
     moduli = _rigidity(of, target) if "g" in ensemble else [Left("the ensemble holds no g")]

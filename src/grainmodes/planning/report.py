@@ -30,7 +30,10 @@ def report(ensemble: xr.Dataset, target: float, table: Table) -> str:
     """
     found = {point: planned(ensemble, point, target) for point in _points(ensemble)}
     if not any(isinstance(of, Plan) for plans in found.values() for of in plans):
-        raise ValueError(f"no point has {LEAST} converged seeds with a mean that is not 0")
+        raise ValueError(
+            f"expected a point with at least {LEAST} converged seeds and a mean other than 0, "
+            "got none"
+        )
     return "\n".join(_lines(found, target, protocol_of(ensemble), table))
 
 

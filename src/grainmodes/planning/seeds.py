@@ -54,7 +54,9 @@ def needed(values: np.ndarray, target: float) -> Need:
     """
     size = len(values)
     if size < LEAST:
-        raise ValueError(f"the spread over seeds needs {LEAST} converged ones, here is {size}")
+        raise ValueError(
+            f"the spread over seeds: expected at least {LEAST} converged seeds, got {size}"
+        )
     mean = np.mean(values, axis=0)
     if np.any(mean == 0.0):
         raise ValueError("the mean is 0 and has no relative error")

@@ -80,7 +80,7 @@ def _fire(packing: Packing, normal, settings: FireSettings, inverse_mass: np.nda
     """FIRE with these settings.
 
     Raises:
-        ArithmeticError: a force is no number.
+        ArithmeticError: a force is NaN or infinite.
     """
     x, y = packing.fraction.copy()
     max_force, steps = fire(
@@ -94,7 +94,7 @@ def _fire(packing: Packing, normal, settings: FireSettings, inverse_mass: np.nda
         settings._replace(force_tolerance=MARGIN * settings.force_tolerance),
     )
     if not np.isfinite(max_force):
-        raise ArithmeticError("a force is no number: two grains may lie at the same place")
+        raise ArithmeticError("a force is NaN or infinite: two grains may lie at the same place")
     relaxed = replace(packing, fraction=np.stack([x, y]))
     return Relaxed(relaxed, max_force < settings.force_tolerance, steps, max_force)
 

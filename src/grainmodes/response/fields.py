@@ -78,7 +78,9 @@ def nearest_modes(
         ValueError: J is not symmetric.
     """
     if packing.history is not None:
-        raise ValueError("single modes need a symmetric Jacobian, every s = 0")
+        raise ValueError(
+            "expected a symmetric Jacobian for single modes, got one with springs (s other than 0)"
+        )
     gone = _rattlers(packing, threshold)
     of = problem(packing, interaction, threshold)
     pairs = [_nearest(of, frequency**2) for frequency in frequencies]

@@ -81,6 +81,6 @@ def elastic_modes(eigenvalue: np.ndarray) -> np.ndarray:
 
 def _step(packing: Packing, interaction: Interaction, threshold: int, loaded: bool) -> AffineStep:
     if packing.history is not None:
-        raise ValueError("the sum over modes needs a symmetric Jacobian, every s = 0")
+        raise ValueError("expected a symmetric Jacobian for a sum over modes, got one with springs")
     rigid = backbone(packing, threshold)
     return AffineStep(rigid, find_contacts(rigid), interaction, loaded)

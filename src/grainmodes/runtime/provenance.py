@@ -57,7 +57,7 @@ def stage_sources(*entries: str) -> list[Path]:
         module, _, function = entry.partition(":")
         path = _file(module)
         if path is None:
-            raise ModuleNotFoundError(f"{entry}: no module {module} in {PACKAGE}")
+            raise ModuleNotFoundError(f"{entry}: expected a module in {PACKAGE}, got {module}")
         nodes = _reached(path, function) if function else [_tree(path)]
         found |= _closure(_imports(nodes)) | set(_files(module))
     return _with_data(found)
@@ -136,7 +136,7 @@ def _reached(path: Path, function: str) -> list[ast.stmt]:
         for name in _bound_names(statement):
             definitions.setdefault(name, []).append(statement)
     if function not in definitions:
-        raise AttributeError(f"{path}: defines no {function}")
+        raise AttributeError(f"{path}: expected a definition of {function}, got none")
     reached: list[ast.stmt] = []
     waiting = list(definitions[function])
     while waiting:

@@ -63,7 +63,9 @@ def band_averages(
         ValueError: J is not symmetric: a frequency is then no square root of an eigenvalue.
     """
     if not problem.symmetric:
-        raise ValueError("bins of frequency need a symmetric Jacobian, every s = 0")
+        raise ValueError(
+            "expected a symmetric Jacobian for bins of frequency, got one with springs"
+        )
     limit = DENSE_MODES_UP_TO if averages else DENSE_COUNTS_UP_TO
     small = choices.method == "auto" and problem.size <= limit
     if small or choices.method == "dense":

@@ -79,7 +79,7 @@ def full_spectrum(
 
 def _method(problem: Problem, asked: str) -> str:
     if asked == "windows" and not problem.symmetric:
-        raise ValueError("windows need a symmetric Jacobian, every s = 0; allowed is dense")
+        raise ValueError("method: expected dense for a Jacobian that is not symmetric, got windows")
     if asked in ("dense", "windows"):
         return asked
     return "windows" if problem.symmetric and problem.size > DENSE_MODES_UP_TO else "dense"

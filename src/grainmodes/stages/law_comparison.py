@@ -29,7 +29,7 @@ def variants_block(packings: Block, law: ContactLaw, choices: Shear) -> Block:
         if not jammed:
             return {"variant_count": 0, "jammed": False, "converged": True}
         if packing.n > MOST_GRAINS:
-            raise ValueError(f"{packing.n} grains: variants are counted up to {MOST_GRAINS}")
+            raise ValueError(f"expected at most {MOST_GRAINS} grains, got {packing.n}")
         return row_of(variants(packing, law, choices))
 
     config = {"law": asdict(law), "shear": asdict(choices)}

@@ -91,10 +91,12 @@ def check(start: Unstable, rule: Interaction) -> None:
         ArithmeticError: its imaginary part is 0 to rounding, or its mode no eigenvector of M⁻¹J.
     """
     if start.eigenvalue.imag <= REAL:
-        raise ArithmeticError(f"the pair has Im = {start.eigenvalue.imag:.1e}: it is real")
+        raise ArithmeticError(
+            f"the pair: expected Im above {REAL:.1e}, got {start.eigenvalue.imag:.1e}"
+        )
     residual = start.residual(rule)
     if not residual < EXACT:
-        raise ArithmeticError(f"the mode has a residual of {residual:.1e}, allowed is {EXACT}")
+        raise ArithmeticError(f"the mode: expected a residual below {EXACT}, got {residual:.1e}")
 
 
 def followed(run: Run, keeper: Keeper | None, name: str) -> Run:

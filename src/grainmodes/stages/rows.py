@@ -53,7 +53,9 @@ def response_block(packings: Block, stage: str, config: dict, law: ContactLaw, s
     """The block of an observable of `packings`, which carries their parameters along."""
     absent = [name for name in ("n", "phi") if name not in packings.attributes]
     if absent:
-        raise BlockError(f"the packings have no attribute {' and no '.join(absent)}")
+        raise BlockError(
+            f"the packings: expected the attributes n and phi, got no {' and no '.join(absent)}"
+        )
     point = {name: packings.attributes[name] for name in ("n", "phi")} | {"kt": law.kt}
     attributes = described(stage, packings.mapping("config") | config, **point)
     failures = packings.mapping("failures")

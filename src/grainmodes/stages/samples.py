@@ -39,12 +39,12 @@ def check_start(block: Block, config: dict, phi: float) -> None:
     """
     made, asked = _flat(block.mapping("config")), _flat(config)
     differing = [key for key in asked if made.get(key) != asked[key]]
-    other = [f"{key} = {made.get(key)}, not {asked[key]}" for key in differing]
+    other = [f"expected {key} = {asked[key]}, got {made.get(key)}" for key in differing]
     if other:
         raise BlockError(f"the checkpoints belong to another compression: {'; '.join(other)}")
     reached = float(block.attributes["phi"])
     if reached > phi + 1e-12:
-        raise BlockError(f"the checkpoints stand at phi = {reached}, beyond the phi = {phi} asked")
+        raise BlockError(f"the checkpoints: expected a phi of at most {phi}, got {reached}")
 
 
 def _flat(config: dict) -> dict:
@@ -61,8 +61,8 @@ def check_same(block: Block, n: int, seeds: range) -> None:
     held = block.variables["seed"].tolist()
     if held != list(seeds) or int(block.attributes["n"]) != n:
         raise BlockError(
-            f"the checkpoints hold {block.attributes['n']} grains, seeds {held}; asked for are {n} "
-            f"grains, seeds {list(seeds)}"
+            f"the checkpoints: expected {n} grains and seeds {list(seeds)}, "
+            f"got {block.attributes['n']} grains and seeds {held}"
         )
 
 
@@ -70,11 +70,13 @@ def trajectory_of(block: Block, number: int) -> Trajectory:
     """The trajectory in a row of checkpoints.
 
     Raises:
-        ValueError: a number in it is none.
+        ValueError: a stored value is NaN or infinite.
     """
     row = {name: block.variables[name][number] for name in ("step", "phi_jamming", "iterations")}
     if not np.isfinite(row["phi_jamming"]):
-        raise ValueError(f"phi_jamming of the checkpoint is {row['phi_jamming']}: no valid number")
+        raise ValueError(
+            f"phi_jamming of the checkpoint: expected a finite number, got {row['phi_jamming']}"
+        )
     return Trajectory(
         packing_of(block, number),
         int(row["step"]),
@@ -155,7 +157,7 @@ def jammed_packing(block: Block, number: int, interaction: Interaction) -> tuple
 
     Raises:
         ArithmeticError: its relaxation had not converged.
-        PackingError: a number in it is none; the other samples may be sound.
+        PackingError: a stored value is NaN or infinite; the other samples may be sound.
         BlockError: it is not in force balance, although it should be.
     """
     if not block.variables["converged"][number]:
@@ -164,11 +166,11 @@ def jammed_packing(block: Block, number: int, interaction: Interaction) -> tuple
     contacts = find_contacts(packing)
     force, _ = largest(net_force(packing, contacts, interaction))
     mean = mean_contact_force(contacts, interaction)
-    allowed = max(BALANCE * mean, force_tolerance(block))
-    if not force <= allowed:
+    limit = max(BALANCE * mean, force_tolerance(block))
+    if not force <= limit:
         raise BlockError(
-            f"packing of seed {seed_of(block, number)} is not in force balance: max|F| = "
-            f"{force:.2e}, allowed is {allowed:.1e} at a mean contact force of {mean:.2e}"
+            f"packing of seed {seed_of(block, number)} is not in force balance: expected "
+            f"max|F| <= {limit:.1e} at a mean contact force of {mean:.2e}, got {force:.2e}"
         )
     return packing, is_jammed(packing, contacts, interaction, force)
 

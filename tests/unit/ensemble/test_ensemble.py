@@ -111,10 +111,18 @@ def test_failures_keep_the_observable_in_which_they_began():
 @pytest.mark.parametrize(
     ("first", "second", "sentence"),
     [
-        (block("rigidity", 0, 2), block("rigidity", 1, 3), "rigidity of seed 1 also stands in"),
-        (block("rigidity", 0, 2), block("rigidity", 2, 3, phi=0.8), "phi is 0.8, but 0.9 in"),
-        (block("rigidity", 0, 2), block("rigidity", 2, 3, config={"k": 2}), "config is"),
-        (block("rigidity", 0, 2), block("packings", 2, 3, stage="soup"), "allowed are packings"),
+        (block("rigidity", 0, 2), block("rigidity", 1, 3), "duplicate seed 1 of rigidity"),
+        (
+            block("rigidity", 0, 2),
+            block("rigidity", 2, 3, phi=0.8),
+            "expected phi = 0.9 as in there, got 0.8",
+        ),
+        (block("rigidity", 0, 2), block("rigidity", 2, 3, config={"k": 2}), "expected config = "),
+        (
+            block("rigidity", 0, 2),
+            block("packings", 2, 3, stage="soup"),
+            "expected stage to be one of packings",
+        ),
     ],
 )
 def test_blocks_that_do_not_belong_together_are_refused(first, second, sentence):
@@ -195,7 +203,7 @@ def test_ensembles_of_nothing_of_blocks_and_of_one_point_twice_are_refused(tmp_p
         write_ensemble([], out, {})
     with pytest.raises(BlockError, match="gather its blocks first"):
         write_ensemble([tmp_path / "16-0.9-1.0-rigidity.nc"], out, {})
-    with pytest.raises(BlockError, match="also is"):
+    with pytest.raises(BlockError, match="duplicate point"):
         write_ensemble([point, point], out, {})
     assert not out.exists()
 
@@ -204,7 +212,9 @@ def test_open_ensemble_says_what_is_wrong(tmp_path):
     path = synthetic.ensemble(tmp_path, phis=(0.9,), kts=(1.0,))
     with pytest.raises(BlockError, match="no such file"):
         open_ensemble(tmp_path / "nothing.nc")
-    with pytest.raises(BlockError, match=r"lacks the dimension n"):
+    with pytest.raises(
+        BlockError, match="expected an ensemble, got a file without the dimension n"
+    ):
         open_ensemble(tmp_path / "16-0.9-1.0.nc")
     path.write_bytes(path.read_bytes()[:5000])
     with pytest.raises(BlockError, match=f"{path.name}: not a readable netCDF file"):

@@ -44,17 +44,21 @@ def test_a_study_without_a_jammed_sample_still_has_its_figures(name, tmp_path):
 @pytest.mark.parametrize(
     ("name", "options", "sentence"),
     [
-        ("g_psi", {}, "figure 'g_psi': expected one of g_phi, g_kt"),
-        ("dos", {"colour": "red"}, "figure dos: unknown option 'colour', allowed are n, phi, kt"),
+        ("g_psi", {}, "figure: expected one of g_phi, g_kt"),
+        (
+            "dos",
+            {"colour": "red"},
+            "figure dos: unknown option 'colour', expected one of n, phi, kt",
+        ),
         (
             "dos",
             {"phi": 0.87},
-            "phi = 0.87: of this ensemble, the figure can show 0.86, 0.9",
+            r"phi: expected one of 0\.86, 0\.9 in this ensemble, got 0\.87",
         ),
-        ("dos", {"kt": (3.0,)}, "kt = 3.0: of this ensemble, the figure can show 1e-08"),
-        ("dos", {"n": 17}, "n = 17: of this ensemble, the figure can show 16"),
-        ("dos_n", {"kt": (1e-8, 1.0)}, "kt: the figure shows one value, asked for are 2"),
-        ("dos", {"fineness": 0.0}, r"fineness is 0.0, allowed is \(0, 1\]"),
+        ("dos", {"kt": (3.0,)}, "kt: expected one of 1e-08, .* got 3.0"),
+        ("dos", {"n": 17}, "n: expected one of 16 in this ensemble, got 17"),
+        ("dos_n", {"kt": (1e-8, 1.0)}, "kt: expected one value for this figure, got 2"),
+        ("dos", {"fineness": 0.0}, r"expected a fineness in \(0, 1\], got 0.0"),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_and_leaves_no_file(
@@ -79,7 +83,7 @@ def test_observables_that_a_figure_needs_are_named(tmp_path):
     }.items():
         with pytest.raises(BlockError, match=sentence):
             draw(name, path, tmp_path / "figure", {})
-    with pytest.raises(ValueError, match="figure g_kt: the ensemble has no k_T > 0"):
+    with pytest.raises(ValueError, match="figure g_kt: expected an ensemble with a k_T > 0"):
         draw("g_kt", path, tmp_path / "figure", {})
 
 

@@ -138,7 +138,7 @@ def test_a_sample_without_an_event_still_has_its_figure(name, sample, tmp_path):
 def test_fields_are_no_close_ups(name, tmp_path):
     attributes = close_up().attributes | {"stage": "fields"}
     write_block(tmp_path / "one.nc", Block(close_up().variables, attributes))
-    with pytest.raises(BlockError, match="holds fields, needed here are close-ups"):
+    with pytest.raises(BlockError, match="expected close-ups, got fields"):
         draw(name, [tmp_path / "one.nc"], tmp_path / name, {})
 
 

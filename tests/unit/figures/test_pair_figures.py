@@ -58,5 +58,5 @@ def test_differences_grow_as_the_root_of_the_distance(paired):
 
 
 def test_a_value_that_no_sample_has_is_named(paired):
-    with pytest.raises(ValueError, match=r"seed = 5: of this ensemble, the figure can show 0, 1"):
+    with pytest.raises(ValueError, match="seed: expected one of 0, 1 in this ensemble, got 5"):
         pair_birth.table(paired, Options(seed=5))

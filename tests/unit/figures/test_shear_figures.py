@@ -85,9 +85,9 @@ def test_mean_rigidity_is_that_of_theory_where_nothing_is_missing(sheared):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        (Options(seed=9), "seed = 9: of this ensemble, the figure can show 0, 1, 2"),
-        (Options(phi=0.83), "phi = 0.83: of this ensemble, the figure can show 0.9"),
-        (Options(kt=(1.0, 2.0)), "kt: the figure shows one value, asked for are 2"),
+        (Options(seed=9), "seed: expected one of 0, 1, 2 in this ensemble, got 9"),
+        (Options(phi=0.83), r"phi: expected one of 0\.9 in this ensemble, got 0\.83"),
+        (Options(kt=(1.0, 2.0)), "kt: expected one value for this figure, got 2"),
     ],
 )
 def test_a_sample_that_is_not_there_is_refused(sheared, options, sentence):

@@ -100,11 +100,13 @@ def test_a_table_comes_back_to_the_last_digit(tmp_path):
 def test_a_file_that_is_no_table_is_refused(tmp_path):
     path = tmp_path / "table.csv"
     path.write_text("a,b\n1,2\n")
-    with pytest.raises(ValueError, match=r"table.csv: no title, grains, .* on top"):
+    with pytest.raises(
+        ValueError, match=r"table.csv: expected a file of measure.py, got no title, grains, "
+    ):
         table.read(path)
     head = "".join(f"# {name}: x\n" for name in table.WORDS)
     path.write_text(f"{head}a,b\n1,2\n")
-    with pytest.raises(ValueError, match="its columns are not curve, setting"):
+    with pytest.raises(ValueError, match=r"expected the columns curve, setting, .* got "):
         table.read(path)
 
 

@@ -80,5 +80,5 @@ def test_the_printed_sign_of_rotations_changes_no_eigenvalue(printed):
 
 
 def test_an_unknown_stiffness_is_refused():
-    with pytest.raises(ValueError, match="allowed are tangent, printed"):
+    with pytest.raises(ValueError, match="expected one of tangent, printed, got"):
         dense(crowd(56), LAWS[0], "secant")

@@ -174,15 +174,15 @@ def test_two_grains_in_one_place_are_refused_by_number():
 @pytest.mark.parametrize(
     ("change", "named"),
     [
-        ({"position": [[0.0, 0.0]]}, "do not fit"),
+        ({"position": [[0.0, 0.0]]}, "for 2 diameters, got"),
         ({"position": [[0.0, 0.0], [np.nan, 0.0]]}, "position of grain 1"),
         ({"diameter": [1.0, -1.0]}, "diameter of grain 1"),
         ({"diameter": [np.inf, 1.0]}, "diameter of grain 0"),
         ({"mass": [1.0, 0.0]}, "mass of grain 1"),
-        ({"mass": [1.0]}, "do not fit"),
+        ({"mass": [1.0]}, "for 2 diameters, got"),
         ({"box_length": 2.0}, "two diameters"),
-        ({"box_length": np.nan}, "box_length = nan"),
-        ({"strain": np.inf}, "strain = inf"),
+        ({"box_length": np.nan}, "box_length: expected a finite number, got nan"),
+        ({"strain": np.inf}, "strain: expected a finite number, got inf"),
         ({"position": np.zeros((1, 2)), "diameter": [1.0]}, "at least 2 grains"),
     ],
 )

@@ -120,11 +120,14 @@ def test_bins_with_few_modes_are_named(tmp_path):
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"rigidity": {"converged": np.array([1, *[0] * 7])}}, "1 converged seeds, needed are 2"),
+        (
+            {"rigidity": {"converged": np.array([1, *[0] * 7])}},
+            "expected at least 2 converged seeds for a spread, got 1",
+        ),
         ({"packings": {"jammed": np.zeros(8, np.int8)}}, "no converged seed is jammed"),
         ({"rigidity": {"g": np.array([1.0, -1.0] * 4)}}, "G: the mean is 0"),
-        ({"rigidity": {"g": np.array([1.0, *[np.nan] * 7])}}, "G: the spread .* here is 1"),
-        ({"rigidity": {"g": np.full(8, np.nan)}}, "G: the spread .* here is 0"),
+        ({"rigidity": {"g": np.array([1.0, *[np.nan] * 7])}}, "G: the spread .* got 1"),
+        ({"rigidity": {"g": np.full(8, np.nan)}}, "G: the spread .* got 0"),
         ({"spectrum_bins": {"bin_count": np.zeros((8, 50))}}, "D: no bin of two samples"),
         ({"stages": STAGES[:2]}, "holds no spectra"),
         ({"stages": (STAGES[0], STAGES[2])}, "holds no g"),
@@ -182,10 +185,10 @@ def test_the_command_prints_a_row_for_every_quantity(tmp_path, capsys):
 def test_a_target_is_a_part_of_a_whole(target, capsys):
     with pytest.raises(SystemExit):
         main(["plan", "pilot.nc", f"--target-error={target}"])
-    assert "needed is one as 1%" in capsys.readouterr().err
+    assert "expected a fraction between 0 and 1, such as 1% or 0.01" in capsys.readouterr().err
 
 
 def test_a_pilot_from_which_nothing_follows_is_refused(tmp_path, capsys):
     path = synthetic.ensemble(tmp_path, phis=(0.83,), kts=(1.0,), seeds=8)
     assert main(["plan", str(path), "--target-error", "1%"]) == 1
-    assert f"{path}: no point has 2 converged seeds" in capsys.readouterr().err
+    assert f"{path}: expected a point with at least 2 converged seeds" in capsys.readouterr().err

@@ -92,9 +92,11 @@ def test_entries_add_up(toy):
 
 
 def test_entries_are_checked(toy):
-    with pytest.raises(ModuleNotFoundError, match=r"no module grainmodes\.nowhere"):
+    with pytest.raises(
+        ModuleNotFoundError, match=r"expected a module in .*grainmodes, got grainmodes\.nowhere"
+    ):
         provenance.stage_sources("grainmodes.nowhere")
-    with pytest.raises(AttributeError, match="defines no nothing"):
+    with pytest.raises(AttributeError, match="expected a definition of nothing"):
         provenance.stage_sources("grainmodes.blocks:nothing")
 
 

@@ -92,7 +92,7 @@ def test_a_sample_without_a_pair_says_so(block):
     ("name", "value", "sentence"),
     [
         ("unstable_mode_real", 1.0, "residual"),
-        ("unstable_eigenvalue_imag", 1e-12, "it is real"),
+        ("unstable_eigenvalue_imag", 1e-12, "expected Im above"),
         ("unstable_eigenvalue_imag", 1e-7, "residual"),
     ],
 )
@@ -152,4 +152,4 @@ def test_other_files_are_refused(tmp_path, capsys):
     pairs.attributes["stage"] = "packings"
     write_block(tmp_path / "pairs.nc", pairs)
     assert main(command(tmp_path, "x.nc")) == 1
-    assert "holds packings, needed here are pairs" in capsys.readouterr().err
+    assert "expected pairs, got packings" in capsys.readouterr().err

@@ -84,7 +84,7 @@ def _seed_range(text: str) -> range:
 def positive(text: str) -> int:
     """A whole number above 0."""
     if not (text.isdigit() and int(text) > 0):
-        raise argparse.ArgumentTypeError(f"{text!r} is no whole number above 0")
+        raise argparse.ArgumentTypeError(f"expected a whole number above 0, got {text!r}")
     return int(text)
 
 
@@ -95,7 +95,7 @@ def seconds(text: str) -> float:
     except ValueError:
         value = 0.0
     if not 0.0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text!r} is no number of seconds above 0")
+        raise argparse.ArgumentTypeError(f"expected a number of seconds above 0, got {text!r}")
     return value
 
 
@@ -107,7 +107,9 @@ def share(text: str) -> float:
     except ValueError:
         value = 0.0
     if rest or not 0.0 < value < 1.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is no part of a whole, needed is one as 1%")
+        raise argparse.ArgumentTypeError(
+            f"expected a fraction between 0 and 1, such as 1% or 0.01, got {text!r}"
+        )
     return value
 
 
@@ -116,7 +118,7 @@ def json_object(text: str) -> dict:
     try:
         value = json.loads(text)
     except json.JSONDecodeError as error:
-        raise argparse.ArgumentTypeError(f"{text!r} is not JSON ({error})") from error
+        raise argparse.ArgumentTypeError(f"expected JSON, got {text!r} ({error})") from error
     if not isinstance(value, dict):
-        raise argparse.ArgumentTypeError(f"{text!r} is no JSON object, needed is one as {{}}")
+        raise argparse.ArgumentTypeError(f"expected a JSON object such as {{}}, got {text!r}")
     return value

@@ -50,11 +50,11 @@ def read(paths: list[str | Path], needed: str = "fields") -> list[Block]:
         block = read_block(path)
         stage = block.attributes.get("stage", "something else")
         if stage != needed:
-            raise BlockError(f"{path}: holds {stage}, needed here are {NAMES[needed]}")
+            raise BlockError(f"{path}: expected {NAMES[needed]}, got {stage}")
         samples = tuple(block.attributes[name] for name in ("n", "phi", "kt"))
         samples += tuple(block.variables["seed"].tolist())
         if samples in found:
-            raise BlockError(f"{path}: its n, phi and kt also stand in {found[samples][0]}")
+            raise BlockError(f"{path}: duplicate n, phi and kt, {found[samples][0]} holds them too")
         found[samples] = path, block
     return [block for _, block in found.values()]
 

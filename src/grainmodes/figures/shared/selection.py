@@ -44,15 +44,18 @@ class Options:
         Raises:
             ValueError: a key is unknown, or `fineness` is not in (0, 1].
         """
-        allowed = [field.name for field in fields(cls)]
-        unknown = [key for key in given if key not in allowed]
+        known = [field.name for field in fields(cls)]
+        unknown = [key for key in given if key not in known]
         if unknown:
             raise ValueError(
-                f"figure {figure}: unknown option {unknown[0]!r}, allowed are {', '.join(allowed)}"
+                f"figure {figure}: unknown option {unknown[0]!r}, "
+                f"expected one of {', '.join(known)}"
             )
         options = cls(**given)
         if options.fineness is not None and not 0.0 < options.fineness <= 1.0:
-            raise ValueError(f"figure {figure}: fineness is {options.fineness}, allowed is (0, 1]")
+            raise ValueError(
+                f"figure {figure}: expected a fineness in (0, 1], got {options.fineness}"
+            )
         return options
 
 
@@ -102,7 +105,7 @@ def positive(values: np.ndarray, figure: str) -> np.ndarray:
         ValueError: there is none.
     """
     if not (values > 0).any():
-        raise ValueError(f"figure {figure}: the ensemble has no k_T > 0; the figure needs one")
+        raise ValueError(f"figure {figure}: expected an ensemble with a k_T > 0, got none")
     return values[values > 0]
 
 
@@ -113,7 +116,7 @@ def weak(asked: tuple[float, ...] | None, values: np.ndarray) -> float:
         ValueError: several are asked for, or one that is none of `values`.
     """
     if asked is not None and len(asked) > 1:
-        raise ValueError(f"kt: the figure shows one value, asked for are {len(asked)}")
+        raise ValueError(f"kt: expected one value for this figure, got {len(asked)}")
     paper = values[np.isclose(values, PAPER_WEAK, rtol=1e-9, atol=0)]
     default = (paper if len(paper) else values)[0].item()
     return default if asked is None else _existing(asked[0], values, "kt")
@@ -123,6 +126,6 @@ def _existing(asked: float, values: np.ndarray, name: str) -> float:
     found = values[np.isclose(values, asked, rtol=1e-9, atol=0)]
     if not len(found):
         raise ValueError(
-            f"{name} = {asked}: of this ensemble, the figure can show {', '.join(map(str, values))}"
+            f"{name}: expected one of {', '.join(map(str, values))} in this ensemble, got {asked}"
         )
     return found[0].item()

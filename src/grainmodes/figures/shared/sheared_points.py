@@ -46,7 +46,7 @@ def shown(points: list[tuple[int, float, float]], options: Options) -> dict[str,
         ValueError: none of the points has the n, phi or kt asked for, or several kt are.
     """
     if options.kt is not None and len(options.kt) > 1:
-        raise ValueError(f"kt: the figure shows one value, asked for are {len(options.kt)}")
+        raise ValueError(f"kt: expected one value for this figure, got {len(options.kt)}")
     asked = {"n": options.n, "phi": options.phi, "kt": options.kt and options.kt[0]}
     point = {}
     for axis, name in enumerate(asked):

@@ -78,8 +78,8 @@ class Run:
         run = cls(start, interaction, choices, drag, motion)
         if run.last > choices.max_steps:
             raise ArithmeticError(
-                f"omega_i = {start.rate:.1e}: {run.last} steps are needed, allowed are "
-                f"{choices.max_steps}"
+                f"omega_i = {start.rate:.1e}: expected a run of at most {choices.max_steps} steps, "
+                f"got one of {run.last}"
             )
         run._look()
         return run

@@ -143,7 +143,7 @@ def _relaxed(packing: Packing, interaction: Interaction, protocol: StepStrain) -
     if protocol.relaxation == "newton":
         return newton(packing, interaction, protocol.force_tolerance, NEWTON_ITERATIONS)
     if is_frictionless(interaction):
-        raise ValueError("damped relaxation of a frictionless packing: use relaxation = newton")
+        raise ValueError("relaxation: expected newton for a frictionless packing, got damped")
     return relax_damped(
         packing,
         interaction,
