@@ -10,7 +10,7 @@ from pathlib import Path
 from grainmodes.configuration import ConfigurationError, Scene, scene_of
 from grainmodes.dataset.files import Block, BlockError, read_block, write_block
 from grainmodes.parameters.fields import field_frequencies
-from grainmodes.stages import packings
+from grainmodes.stages import packings as packing_stages
 
 OPTIONS = {
     "grids[0].n[0]": "--n",
@@ -33,7 +33,7 @@ def compress(arguments: Namespace) -> None:
     scene = _scene(arguments.settings, n=arguments.n, phi=arguments.phi)
     opened = _opened(arguments.start, "trajectories") if arguments.start else nullcontext()
     with opened as start:
-        block = packings.compress_block(
+        block = packing_stages.compress_block(
             arguments.n,
             arguments.seeds,
             arguments.phi,
@@ -49,7 +49,7 @@ def pack(arguments: Namespace) -> None:
     scene = _scene(arguments.settings, phi=arguments.phi)
     compression, normal = scene.protocol.compression, scene.law.normal
     with _opened(arguments.start, "trajectories") as start:
-        block = packings.packing_block(start, arguments.phi, compression, normal)
+        block = packing_stages.packing_block(start, arguments.phi, compression, normal)
     write_block(arguments.output, block)
 
 
@@ -58,7 +58,7 @@ def rigidity(arguments: Namespace) -> None:
     scene = _scene(arguments.settings, kt=arguments.kt)
     law = scene.law_at(arguments.kt)
     with _opened(arguments.packings, "packings") as packings:
-        block = packings.rigidity_block(packings, law, scene.protocol.rattlers)
+        block = packing_stages.rigidity_block(packings, law, scene.protocol.rattlers)
     write_block(arguments.output, block)
 
 
@@ -67,7 +67,7 @@ def step_strain(arguments: Namespace) -> None:
     scene = _scene(arguments.settings, kt=arguments.kt)
     law = scene.law_at(arguments.kt)
     with _opened(arguments.packings, "packings") as packings:
-        block = packings.step_strain_block(packings, law, scene.protocol.step_strain)
+        block = packing_stages.step_strain_block(packings, law, scene.protocol.step_strain)
     write_block(arguments.output, block)
 
 
