@@ -8,7 +8,7 @@
 #   snakemake -j2 accuracy                              what each numerical choice costs and buys
 #
 # trajectories -> packings -> {rigidity, step_strain, spectra, probes, shear, variants} -> points
-#                        \-> fields, close_up -> figures    points -> ensemble -> figures, claims
+#                        \-> fields, event_detail -> figures    points -> ensemble -> figures, claims
 #                         pairs -> release -> figures, film
 
 
@@ -30,5 +30,5 @@ rule all:
         checks=rules.checks.output,
         claims=rules.claims.output,
         fields=samples_of("fields"),
-        close_up=samples_of("close_up"),
+        event_detail=samples_of("event_detail"),
         figures=figures(),

@@ -79,7 +79,7 @@ def measure(size: Size) -> Iterator[Row]:
             exact = [critical_strain(packing, way.rule, closest) for packing in packings]
             for width in way.widths:
                 done = apart(sampled, name, width, packings, exact)
-                default = way.backtracking and width == SHIPPED.smallest_step
+                default = way.backtracking and width == SHIPPED.min_step
                 yield row(f"{name}{of(n, size)}", width, done.value, done.megabytes, default)
 
 

@@ -19,9 +19,9 @@ from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing.mass_weighted import root_mass
 from grainmodes.packing.state import Packing, nonaffine_motion
+from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.tracking import PairWalk
 from grainmodes.relaxation.dynamics import move
@@ -33,7 +33,7 @@ RULE = interaction(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, 10.0))
 GRAINS = Compression(phi_step=1e-3, large_diameter=1.4, masses="equal")
 """C's grains."""
 
-SHEAR, PAIRS = Shear(0.02, force_tolerance=2e-15), PairChoices("dense", located=0)
+SHEAR, PAIRS = Shear(0.02, force_tolerance=2e-15), PairChoices("dense", max_located=0)
 
 SLOWEST = 5e-3
 """ω_i t_0 of a state that is worth waiting for."""

@@ -68,7 +68,7 @@ def sizes(total: int) -> list[int]:
 
 def ensemble(n: int, seeds: int) -> np.ndarray:
     """G, and the modes in A's bins, of every seed, (T, 1 + B); NaN where a packing failed."""
-    edges = fixed_edges(KAPPA, SpectrumChoices().fineness)
+    edges = fixed_edges(KAPPA, SpectrumChoices().bin_density)
     found = np.full((seeds, len(edges)), np.nan)
     for seed in range(seeds):
         try:

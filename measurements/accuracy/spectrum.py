@@ -5,7 +5,7 @@
 | dense symmetric   | every mode (LAPACK evd)              | modes                          |
 | dense general     | every mode (LAPACK geev, as A, B)    | modes                          |
 | windows           | every mode, block Lanczos            | modes                          |
-| counts            | modes below given edges, exactly     | fineness of A's linear bins    |
+| counts            | modes below given edges, exactly     | bin_density of A's linear bins    |
 | counted twice     | ψ^R in bins from counts in two σ     | cells a bin                    |
 | kernel polynomial | both, from random vectors: not taken | moments                        |
 
@@ -50,8 +50,8 @@ BINS = np.linspace(0.02, 1.3, 21)
 """Edges of the bins of ψ^R, over both bands."""
 
 SHIPPED = SpectrumChoices()
-FINENESS = (0.02, 0.06, SHIPPED.fineness, 0.6, 2.0)
-CELLS = (1, SHIPPED.substeps, 4, 8)
+FINENESS = (0.02, 0.06, SHIPPED.bin_density, 0.6, 2.0)
+CELLS = (1, SHIPPED.cells_per_bin, 4, 8)
 MOMENTS = (125, 500, 2000)
 FINER = 4
 
@@ -98,13 +98,13 @@ def dense_general(of: Problem, modes: float) -> Found:
 
 def windows(of: Problem, modes: float) -> Found:
     """Block Lanczos between exact counts."""
-    found = full_spectrum(of, choices=SpectrumChoices("windows"))
+    found = full_spectrum(of, choices=SpectrumChoices("slicing"))
     return every_mode(found.eigenvalue, found.psi_rotational)
 
 
-def counted(of: Problem, fineness: float) -> Found:
+def counted(of: Problem, bin_density: float) -> Found:
     """A's bins, their modes evenly between the edges."""
-    edges = fixed_edges(FAINT, fineness)
+    edges = fixed_edges(FAINT, bin_density)
     return Found(np.interp(_ranks(of), counts(of.shift(), edges), edges), None)
 
 
@@ -163,8 +163,10 @@ METHODS = {
     "dense symmetric": Method(dense_symmetric, BOTH, (), None, DENSE_MODES_UP_TO, SMALL),
     "dense general": Method(dense_general, BOTH, (), None, DENSE_MODES_UP_TO, NEVER),
     "windows": Method(windows, BOTH, (), None, WINDOWS_UP_TO, BEYOND_MODES),
-    "counts": Method(counted, (DENSITY,), FINENESS, SHIPPED.fineness, np.inf, BEYOND_COUNTS),
-    "counted twice": Method(counted_twice, (SHARE,), CELLS, SHIPPED.substeps, np.inf, BEYOND_MODES),
+    "counts": Method(counted, (DENSITY,), FINENESS, SHIPPED.bin_density, np.inf, BEYOND_COUNTS),
+    "counted twice": Method(
+        counted_twice, (SHARE,), CELLS, SHIPPED.cells_per_bin, np.inf, BEYOND_MODES
+    ),
     "kernel polynomial": Method(stochastic, BOTH, MOMENTS, None, np.inf, NEVER),
 }
 
@@ -210,7 +212,7 @@ def sampled(name: str, setting: float, problems: list[Problem]) -> list[tuple[Fo
 
 def error_of_density(found: Found, exact: Found) -> float:
     """Mean |ln ω/ω_ref| of the modes in A's bins."""
-    low, *_, high = fixed_edges(FAINT, SHIPPED.fineness)
+    low, *_, high = fixed_edges(FAINT, SHIPPED.bin_density)
     inside = (exact.frequency > low) & (exact.frequency < high)
     ratio = np.maximum(found.frequency[inside], low) / exact.frequency[inside]
     return float(np.abs(np.log(ratio)).mean())
@@ -227,7 +229,7 @@ QUANTITIES = {DENSITY: (FAINT, error_of_density), SHARE: (MIXED, error_of_share)
 
 DIAGRAM = Diagram(
     title=r"Spectra, φ = 0.90: $D(\omega)$ at $k_T/k_N = 10^{-8}$, $\psi^R$ at $10^{-2}$",
-    setting="modes, fineness, cells a bin, or moments",
+    setting="modes, bin_density, cells a bin, or moments",
     unit="spectrum",
     error=r"$|\ln\,\omega/\omega_{\rm ref}|$ of a mode; $|\psi^R - \psi^R_{\rm ref}|$ of a bin",
     reference="eigenpairs sharpened in extended precision; at large N 4 times the edges and cells",

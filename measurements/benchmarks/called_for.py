@@ -182,7 +182,7 @@ def _responses() -> list[Row]:
 def _spectra() -> list[Row]:
     found = [
         Row(stage, name, partial(bands, averages, law), sizes)
-        for stage, averages, sizes in (("counts", False, LARGE), ("bands", True, SMALL))
+        for stage, averages, sizes in (("counts", False, LARGE), ("binned_averages", True, SMALL))
         for name, _, law in STATES[:2]
     ]
     return found + [

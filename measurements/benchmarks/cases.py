@@ -21,10 +21,10 @@ from grainmodes.kernels.damping import Dashpot, Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.fire import FireSettings, fire
 from grainmodes.kernels.laws import Hertz, interaction
+from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import checkpoints_up_to, phi_at_step
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.compression.trajectory import (
     compress_along_grid,
@@ -163,7 +163,7 @@ def rotational_share(n: int) -> float:
 
     def measure():
         below = counts(shift, edges)
-        found = rotational_sums(shift, below, edges, of.k, substeps=1)
+        found = rotational_sums(shift, below, edges, of.k, cells_per_bin=1)
         print("rotational_share: largest error of a mean", _worst(found.error, np.diff(below)))
 
     return cpu(measure)
@@ -177,7 +177,7 @@ def _worst(error: np.ndarray, count: np.ndarray) -> float:
 def all_pairs(n: int) -> float:
     """All eigenpairs with ψ and p, in certified windows."""
     of = weakly_frictional(n)
-    return cpu(lambda: full_spectrum(of, choices=SpectrumChoices("windows")))
+    return cpu(lambda: full_spectrum(of, choices=SpectrumChoices("slicing")))
 
 
 def weakly_frictional(n: int):
@@ -197,7 +197,7 @@ def packing_of_c(n: int):
 def pairs_along(n: int, detection: str, strain: float = 0.02) -> float:
     """Complex pairs of every state of a shear in steps of 1e-4, C's grains and law, μ = 10."""
     choices = replace(SHEAR_OF_C, strain=strain)
-    asked = PairChoices(detection, located=0)
+    asked = PairChoices(detection, max_located=0)
     walk = PairWalk.start(packing_of_c(n), GRAINS_OF_C, choices, asked)
 
     def along():
@@ -209,7 +209,7 @@ def pairs_along(n: int, detection: str, strain: float = 0.02) -> float:
 
 def pairs_carried(n: int) -> float:
     """From the eigenvectors of the state before."""
-    return pairs_along(n, "carried")
+    return pairs_along(n, "continuation")
 
 
 def pairs_by_lapack(n: int) -> float:
@@ -219,7 +219,7 @@ def pairs_by_lapack(n: int) -> float:
 
 def pairs_by_windows(n: int) -> float:
     """Every complex pair at γ = 0.01, disc by disc."""
-    return pairs_of_one_state(n, "windows")
+    return pairs_of_one_state(n, "discs")
 
 
 def pairs_of_one_by_lapack(n: int) -> float:

@@ -34,11 +34,11 @@ prepare()
 SIZES = tuple(64 * 2**k for k in range(11))
 
 WORKS = (
-    *("rigidity", "count_pardiso", "count_superlu", "step_strain", "pack", "trajectory"),
+    *("rigidity", "count_pardiso", "count_superlu", "step_strain", "equilibrate", "trajectory"),
     *("dense_values", "dense_modes", "window_pardiso", "window_superlu", "shear"),
-    *("pairs", "fields", "variants"),
+    *("complex_pairs", "fields", "law_comparison"),
 )
-"""Close-ups, releases and probes are left out: what they cost hangs on where a sample has its
+"""Event details, releases and probes are left out: what they cost hangs on where a sample has its
 events, on how slowly its unstable state is left, on a compression with friction, more than on N."""
 
 COLUMNS = ["work", "n", "seconds", "units", "megabytes"]

@@ -19,10 +19,10 @@ from grainmodes.runtime.atomic import replaced
 from measurements.benchmarks.growth_laws import LAST, Fit, laws, per_sample
 
 PANELS = {
-    "packings, rigidity": ("trajectory", "pack", "step_strain", "rigidity"),
+    "packings, rigidity": ("trajectory", "equilibrate", "step_strain", "rigidity"),
     "all modes": ("dense_modes", "dense_values", "window_superlu", "window_pardiso"),
     "counts, fields": ("count_superlu", "count_pardiso", "fields"),
-    "along a shear": ("variants", "pairs", "shear"),
+    "along a shear": ("law_comparison", "complex_pairs", "shear"),
 }
 """Title of a column of panels → its works."""
 
@@ -34,8 +34,8 @@ LABELS = {
     "window_pardiso": "windows, PARDISO",
     "count_superlu": "160 edges, SuperLU",
     "count_pardiso": "160 edges, PARDISO",
-    "variants": "variants, 200 steps",
-    "pairs": "pairs, 200 steps",
+    "law_comparison": "law_comparison, 200 steps",
+    "complex_pairs": "pairs, 200 steps",
     "shear": "shear, 200 steps",
 }
 

@@ -46,10 +46,10 @@ SHORT, MOST = 1.0, 5
 SPECTRA = {
     "dense_values": ("eigenvalues", "dense", "auto"),
     "dense_modes": ("modes", "dense", "auto"),
-    "window_superlu": ("modes", "windows", "superlu"),
-    "window_pardiso": ("modes", "windows", "pardiso"),
-    "count_superlu": ("counts", "counting", "superlu"),
-    "count_pardiso": ("counts", "counting", "pardiso"),
+    "window_superlu": ("modes", "slicing", "superlu"),
+    "window_pardiso": ("modes", "slicing", "pardiso"),
+    "count_superlu": ("counts", "inertia_counts", "superlu"),
+    "count_pardiso": ("counts", "inertia_counts", "pardiso"),
 }
 """Name of a work → kind of the spectrum, method, factorisation."""
 
@@ -66,8 +66,8 @@ def timed(work: str, n: int, folder: Path) -> Timed:
     """One work at n grains, in this process; `folder` keeps packings for other works."""
     run = {
         "trajectory": lambda n: sum(climb(n)),
-        "pack": _balance,
-        "pairs": lambda n: cases.pairs_along(n, "carried", SHEARED),
+        "equilibrate": _balance,
+        "complex_pairs": lambda n: cases.pairs_along(n, "continuation", SHEARED),
     }.get(work, lambda n: _respond(work, n, folder))
     run(FEW)
     return Timed(_shortest(run, n), _units(work, n, folder), peak())
@@ -128,12 +128,12 @@ def _settings(work: str) -> dict:
     sheared = {"protocol": {"shear": {"strain": SHEARED}}}
     if work == "shear":
         return {"contact_law": {"normal": "harmonic"}} | sheared
-    if work == "variants":
+    if work == "law_comparison":
         return sheared
     if work not in SPECTRA:
         return {}
     kind, method, factorisation = SPECTRA[work]
-    choices = {"method": method, "factorisation": factorisation, "fineness": FINENESS}
+    choices = {"method": method, "factorisation": factorisation, "bin_density": FINENESS}
     return {"observables": {"spectrum": kind}, "protocol": {"spectrum": choices}}
 
 
@@ -145,7 +145,7 @@ def _used() -> float:
 
 def _units(work: str, n: int, folder: Path) -> float:
     """Modes of windows, edges of counts, steps or states of a shear; else one sample."""
-    if work in ("shear", "variants", "pairs"):
+    if work in ("shear", "law_comparison", "complex_pairs"):
         return SHEARED / USUAL_STEP
     names = {"window": "mode_count", "count": "bin_edge"}
     name = names.get(work.split("_")[0])

@@ -17,30 +17,30 @@ from grainmodes.dataset.files import Block, BlockError, read_block
 from grainmodes.kernels.laws import Hertz
 from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.state import find_contacts
+from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw, Rattlers
-from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import Shear, StepStrain
 from grainmodes.stages import packings as stages
-from grainmodes.stages.claim_diagnostics import probes_block
-from grainmodes.stages.event_detail import close_up_block
+from grainmodes.stages.claim_diagnostics import claim_diagnostics_block
+from grainmodes.stages.complex_pairs import complex_pairs_block
+from grainmodes.stages.event_detail import event_detail_block
 from grainmodes.stages.fields import fields_block
-from grainmodes.stages.law_comparison import variants_block
-from grainmodes.stages.pairs import pairs_block
+from grainmodes.stages.law_comparison import law_comparison_block
 from grainmodes.stages.release import release_block
 from grainmodes.stages.rows import block_of
 from grainmodes.stages.samples import packed
 from grainmodes.stages.shear import shear_block
 from grainmodes.stages.spectrum import hessian_block, rattlers_block, spectrum_block
-from released import pairs_block as unstable_states
+from released import complex_pairs_block as unstable_states
 from released import state
 
 WEAK, SLIPPING = ContactLaw(kt=1e-2), ContactLaw("hertz", "smoothed_coulomb", 2 / 7, 10.0)
 COARSE, SHEAR = Compression(phi_step=1e-2), Shear(2e-3, 1e-3, 1e-4)
-SHORT = Release(duration=0.01, least_time=0.0, records=60, dampings=(), spectra=0)
+SHORT = Release(duration=0.01, min_time=0.0, n_records=60, dampings=(), spectra=0)
 MODES = SpectrumChoices()
 
 
@@ -75,7 +75,7 @@ GRAINS = ("diameter", "mass", "box_length", "strain")
 STATE = (
     "unstable_strain",
     "unstable_rotation",
-    "unstable_slip",
+    "unstable_spring_state",
     "unstable_eigenvalue_real",
     "unstable_eigenvalue_imag",
     "unstable_mode_real",
@@ -93,7 +93,7 @@ STAGES = {
         lambda block: stages.compress_block(16, range(2), 0.71, COARSE, "hertz", block),
         (*GRAINS, "phi_jamming"),
     ),
-    "pack": Stage(
+    "equilibrate": Stage(
         checkpoints,
         lambda block: stages.packing_block(block, 0.71, COARSE, "hertz"),
         (*GRAINS, "phi_jamming"),
@@ -103,14 +103,16 @@ STAGES = {
     "spectrum": of_packings(lambda block: spectrum_block(block, WEAK, Rattlers(), "modes", MODES)),
     "rattlers": of_packings(lambda block: rattlers_block(block, WEAK, "modes", MODES)),
     "hessian": of_packings(lambda block: hessian_block(block, WEAK, Rattlers(), MODES)),
-    "probes": of_packings(lambda block: probes_block(block, ContactLaw(), Protocol())),
+    "claim_diagnostics": of_packings(
+        lambda block: claim_diagnostics_block(block, ContactLaw(), Protocol())
+    ),
     "fields": of_packings(
         lambda block: fields_block(block, WEAK, Rattlers(), StepStrain(), (0.5,))
     ),
-    "close-up": of_packings(lambda block: close_up_block(block, WEAK, SHEAR)),
+    "event-detail": of_packings(lambda block: event_detail_block(block, WEAK, SHEAR)),
     "shear": of_packings(lambda block: shear_block(block, WEAK, SHEAR)),
-    "pairs": of_packings(lambda block: pairs_block(block, SLIPPING, SHEAR, PairChoices())),
-    "variants": of_packings(lambda block: variants_block(block, SLIPPING, SHEAR)),
+    "pairs": of_packings(lambda block: complex_pairs_block(block, SLIPPING, SHEAR, PairChoices())),
+    "law_comparison": of_packings(lambda block: law_comparison_block(block, SLIPPING, SHEAR)),
     "release": Stage(
         unstable, lambda block: release_block(block, state()[1], SHORT), (*GRAINS[:3], *STATE)
     ),

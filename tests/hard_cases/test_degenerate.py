@@ -15,9 +15,9 @@ from grainmodes.packing.contacts import Contacts
 from grainmodes.packing.forces import forces_on_i, sliding
 from grainmodes.packing.jacobian import stiffness_of
 from grainmodes.packing.state import PackingError, find_contacts
+from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, ExceptionalPoint
 from grainmodes.protocols.pair_tracking.tracking import PairWalk

@@ -67,7 +67,7 @@ def test_a_stable_packing_may_have_a_negative_g():
     g = rigidity(packing, law).unloaded.g
     assert g < -1e-4 and not Balance.of(packing, law).unstable
     assert g == pytest.approx(step_strain(packing, law, StepStrain()).g, rel=1e-6)
-    walk = Walk.start(packing, law, Shear(strain=3e-6, step=1e-6, smallest_step=1e-8))
+    walk = Walk.start(packing, law, Shear(strain=3e-6, step=1e-6, min_step=1e-8))
     while not walk.done:
         walk.advance()
     sigma = [point.stress[0, 1] + point.stress[1, 0] for point in walk.curve]

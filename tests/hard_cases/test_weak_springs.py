@@ -19,7 +19,7 @@ from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import dense, full_spectrum, problem, spectrum_slicing
 
 SMALL = reference(MINIMAL[0])[1]
-WINDOWS = SpectrumChoices("windows")
+WINDOWS = SpectrumChoices("slicing")
 
 
 def sure(matrix: np.ndarray, value: float, rank: int, part: float) -> bool:

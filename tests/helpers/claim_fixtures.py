@@ -35,7 +35,7 @@ def set_moduli(dataset: xr.Dataset, g: xr.DataArray) -> None:
     """Every modulus that equals g, so that no claim but those on g itself sees a change of g."""
     g = (g * noise(dataset, 0.05)).transpose(*POINT)
     dataset["g"], dataset["g_simulated"], dataset["g_translational"] = g, g * (1 + 1e-6), g.copy()
-    steps = xr.DataArray(1.0 + np.array(STRAINS), dims="probe")
+    steps = xr.DataArray(1.0 + np.array(STRAINS), dims="diagnostic")
     dataset["g_forward_by_strain"] = g * steps
 
 
@@ -160,7 +160,7 @@ def count_hessian(dataset: xr.Dataset) -> None:
 
 def _probes(dataset: xr.Dataset) -> None:
     one = ones(dataset)
-    dataset["probe_strain"] = one * xr.DataArray(np.array(STRAINS), dims="probe")
+    dataset["diagnostic_strain"] = one * xr.DataArray(np.array(STRAINS), dims="diagnostic")
     dataset["verlet_order_position"] = 2.0 * noise(dataset, 0.01) * one
     dataset["verlet_order_velocity"] = 1.0 * noise(dataset, 0.01) * one
     dataset["complex_pairs_frictional"] = 3.0 * one

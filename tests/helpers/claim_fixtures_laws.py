@@ -26,15 +26,15 @@ def ensemble() -> xr.Dataset:
     having = np.arange(STATES) % 2 == 1
     for law, numbers in NUMBERS.items():
         rate = np.where(having, RATE, 0.0)
-        _add(dataset, f"variant_rate_{law}", rate)
+        _add(dataset, f"comparison_rate_{law}", rate)
         for name, value in numbers.items():
             by_state = np.where(having, value, np.nan if name == "growth" else 0.0)
-            _add(dataset, f"variant_{name}_{law}", by_state)
+            _add(dataset, f"comparison_{name}_{law}", by_state)
     return dataset
 
 
 def _add(dataset: xr.Dataset, name: str, states: np.ndarray) -> None:
     noise = np.random.default_rng(len(name)).normal(1.0, 0.01, (claim_fixtures.SEEDS, 1))
-    rows = xr.DataArray(noise * states, dims=("seed", "variant_state"))
+    rows = xr.DataArray(noise * states, dims=("seed", "comparison_state"))
     place = {key: [value] for key, value in claim_fixtures_shear.PLACE.items()}
     dataset[name] = rows.expand_dims(place)

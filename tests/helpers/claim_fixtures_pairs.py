@@ -23,10 +23,10 @@ def ensemble() -> xr.Dataset:
     dataset = claim_fixtures.ensemble()
     rows = [_sample(seed) for seed in range(claim_fixtures.SEEDS)]
     for name in rows[0]:
-        axis = {"pair": "pair_state", "exceptional": "exceptional_state"}
-        kind = name.partition("_")[0]
+        axes = {"pair": "pair_state", "neighbour": "neighbour_state"}
+        axis = axes.get(name.partition("_")[0], "exceptional_point")
         values = np.stack([np.asarray(row[name], float) for row in rows])
-        dims = ("seed", axis.get(kind, kind))[: values.ndim]
+        dims = ("seed", axis)[: values.ndim]
         dataset[name] = xr.DataArray(values, dims=dims).expand_dims(
             {key: [value] for key, value in PLACE.items()}
         )
@@ -41,16 +41,16 @@ def _sample(seed: int) -> dict[str, object]:
     return {
         "pair_state_count": 5,
         "pair_count": np.arange(5),
-        "located_life": [0, 0],
-        "located_birth": [1, 0],
-        "located_kind": [1, 1],
-        "located_strain": [1e-3, 3e-3],
-        "located_exponent_real": 0.5 + noise,
-        "located_exponent_pair": 0.5 - noise,
-        "exceptional_of": np.repeat([0, 1], len(distance) // 2),
-        "exceptional_distance": distance,
-        "exceptional_sum": 0.4 + 0.0 * distance,
-        "exceptional_discriminant": discriminant,
-        "exceptional_product": 1.0 - STEEP * np.where(discriminant > 0.0, np.abs(distance), 0.0),
-        "exceptional_condition": 1.0 / np.sqrt(np.abs(discriminant)),
+        "exceptional_point_track": [0, 0],
+        "exceptional_point_birth": [1, 0],
+        "exceptional_point_kind": [1, 1],
+        "exceptional_point_strain": [1e-3, 3e-3],
+        "exceptional_point_exponent_real": 0.5 + noise,
+        "exceptional_point_exponent_pair": 0.5 - noise,
+        "neighbour_point": np.repeat([0, 1], len(distance) // 2),
+        "neighbour_distance": distance,
+        "neighbour_sum": 0.4 + 0.0 * distance,
+        "neighbour_discriminant": discriminant,
+        "neighbour_product": 1.0 - STEEP * np.where(discriminant > 0.0, np.abs(distance), 0.0),
+        "neighbour_condition": 1.0 / np.sqrt(np.abs(discriminant)),
     }

@@ -64,7 +64,7 @@ def add_stress(dataset: xr.Dataset, added: np.ndarray) -> None:
     """Raise both components of the stress of every sample by (M,) or (S, M)."""
     for name in ("curve_stress_xy", "curve_stress_yx"):
         dataset[name].loc[PLACE] += added
-    dataset["unbracketed_stress"].loc[PLACE] += added[..., on_grid(strains())]
+    dataset["coarse_stress"].loc[PLACE] += added[..., on_grid(strains())]
 
 
 def on_grid(strain: np.ndarray) -> np.ndarray:
@@ -91,8 +91,8 @@ def _sample(seed: int) -> dict[str, object]:
         "curve_g_xy": g,
         "curve_g_yx": g,
         "curve_lowest_eigenvalue": lowest,
-        "unbracketed_strain": strain[grid],
-        "unbracketed_stress": (stress * (1.0 + 1e-4 * factor))[grid],
+        "coarse_strain": strain[grid],
+        "coarse_stress": (stress * (1.0 + 1e-4 * factor))[grid],
         "event_kind": one,
         "event_strain_before": strain[before],
         "event_opened": one,
@@ -101,8 +101,8 @@ def _sample(seed: int) -> dict[str, object]:
         "event_asymmetry_after": 0.0 * one,
         "event_complex_pairs_after": 0.0 * one,
         "event_quadrupole": 0.5 * factor * one,
-        "event_other_poles": 0.02 * one,
-        "bracket_smallest_step": width,
+        "event_other_multipoles": 0.02 * one,
+        "bracket_min_step": width,
         "bracket_strain_before": EVENTS[0] - 0.5 * width,
         "bracket_strain_after": EVENTS[0] + 0.5 * width + 0.2 * factor * width,
         "last_complex_pairs": 0.0,

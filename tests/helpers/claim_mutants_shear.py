@@ -56,7 +56,7 @@ def no_contact_changes(ensemble):
 
 
 def other_without_brackets(ensemble):
-    ensemble["unbracketed_stress"] = 1.05 * ensemble["unbracketed_stress"]
+    ensemble["coarse_stress"] = 1.05 * ensemble["coarse_stress"]
 
 
 def wandering(ensemble):

@@ -151,7 +151,7 @@ def pairs_of(packing: Packing, skin: float = 0.0) -> list[naive.Pair]:
     if packing.history is not None:
         h = packing.history
         keys = zip(h.i.tolist(), h.j.tolist(), strict=True)
-        slip = dict(zip(keys, h.tangential_displacement, strict=True))
+        slip = dict(zip(keys, h.spring_state, strict=True))
     return naive.all_pairs(
         packing.position, packing.diameter, packing.box_length, packing.strain, skin, slip
     )

@@ -20,7 +20,7 @@ from grainmodes.protocols.release.run import Run
 from grainmodes.protocols.shear.unstable import Unstable
 from grainmodes.stages.rows import block_of
 
-SHORT = Release(duration=18.0, least_time=0.0, records=600, spectra=0)
+SHORT = Release(duration=18.0, min_time=0.0, n_records=600, spectra=0)
 """Long enough for ten e-folds of the fastest pair from its kick on; ends before contacts change."""
 
 
@@ -52,7 +52,7 @@ def series(run: Run, name: str) -> np.ndarray:
     return np.array([getattr(record, name) for record in run.records])
 
 
-def pairs_block() -> Block:
+def complex_pairs_block() -> Block:
     """A block as the stage `pairs` leaves it: this state, and a sample that met none."""
     start, law, _ = state()
     packing, mode = start.packing, start.mode
@@ -64,14 +64,14 @@ def pairs_block() -> Block:
         "unstable_rotation": packing.rotation,
         "unstable_contact_i": packing.history.i,
         "unstable_contact_j": packing.history.j,
-        "unstable_slip": packing.history.tangential_displacement,
+        "unstable_spring_state": packing.history.spring_state,
         "unstable_eigenvalue_real": start.eigenvalue.real,
         "unstable_eigenvalue_imag": start.eigenvalue.imag,
         "unstable_mode_real": mode.real,
         "unstable_mode_imag": mode.imag,
         **{name: getattr(packing, name) for name in ("diameter", "mass", "box_length")},
     }
-    point = {"n": packing.n, "phi": round(packing.phi, 12), "kt": law.kt, "stage": "pairs"}
+    point = {"n": packing.n, "phi": round(packing.phi, 12), "kt": law.kt, "stage": "complex_pairs"}
     return block_of(
         range(2), [row, {"converged": True, "unstable_found": 0}].__getitem__, {}, point
     )

@@ -19,7 +19,14 @@ from grainmodes.parameters.law import TANGENTIAL_LAWS
 
 JAMMING = 0.845
 STAGES = ("packings", "rigidity", "step_strain", "spectrum")
-WHOLE = (*STAGES, "spectrum_rattlers", "spectrum_hessian", "shear", "pairs", "variants")
+WHOLE = (
+    *STAGES,
+    "spectrum_rattlers",
+    "spectrum_hessian",
+    "shear",
+    "complex_pairs",
+    "law_comparison",
+)
 
 
 def block(stage: str, n: int, phi: float, kt: float, seeds: range, /, **changes) -> Block:
@@ -178,8 +185,8 @@ def _shear(n, phi, kt, size, draws):
         "curve_strain": one * strain,
         "curve_stress_xy": stress + 1e-4,
         "curve_stress_yx": stress - 1e-4,
-        "unbracketed_strain": one * strain,
-        "unbracketed_stress": stress + 1e-5,
+        "coarse_strain": one * strain,
+        "coarse_stress": stress + 1e-5,
         "curve_g_xy": g,
         "curve_g_yx": g,
         "curve_lowest_eigenvalue": one * (0.2 - 0.05 * after),
@@ -192,18 +199,18 @@ def _shear(n, phi, kt, size, draws):
 def _variants(n, phi, kt, size, draws):
     """A pair every second state, ω_i = 0.01, which grows unless a sharp spring had to slip."""
     if phi <= JAMMING:
-        return {"variant_count": np.zeros(size, int), "jammed": np.zeros(size, np.int8)}
+        return {"comparison_count": np.zeros(size, int), "jammed": np.zeros(size, np.int8)}
     one, pairs = np.ones((size, 1)), np.arange(5) % 2
-    row = {"variant_count": np.full(size, 5), "jammed": np.ones(size, np.int8)}
-    row["variant_strain"] = one * np.arange(1, 6) * 1e-3
+    row = {"comparison_count": np.full(size, 5), "jammed": np.ones(size, np.int8)}
+    row["comparison_strain"] = one * np.arange(1, 6) * 1e-3
     for law in TANGENTIAL_LAWS:
         sharp = law.startswith("sharp")
         found = pairs * (law != "elastic_force")
-        row[f"variant_pairs_slipping_{law}"] = one * found
-        row[f"variant_pairs_sticking_{law}"] = one * found * (not sharp)
-        row[f"variant_slipping_{law}"] = one * found * sharp
-        row[f"variant_rate_{law}"] = 0.01 * one * found
-        row[f"variant_growth_{law}"] = np.where(one * found > 0, 0.0 if sharp else 0.01, np.nan)
+        row[f"comparison_pairs_slipping_{law}"] = one * found
+        row[f"comparison_pairs_sticking_{law}"] = one * found * (not sharp)
+        row[f"comparison_slipping_{law}"] = one * found * sharp
+        row[f"comparison_rate_{law}"] = 0.01 * one * found
+        row[f"comparison_growth_{law}"] = np.where(one * found > 0, 0.0 if sharp else 0.01, np.nan)
     return row
 
 
@@ -224,19 +231,19 @@ def _pairs(n, phi, kt, size, draws):
         "pair_state_count": np.full(size, len(strain)),
         "pair_strain": one * strain,
         "pair_count": one * (squared < 0.0),
-        "located_life": one * [0, 0],
-        "located_birth": one * [1, 0],
-        "located_kind": one * [1, 1],
-        "located_strain": one * ends,
-        "located_exponent_real": one * [0.5, 0.5],
-        "located_exponent_pair": one * [0.5, 0.5],
-        "exceptional_of": one * np.repeat([0, 1], len(distance)),
-        "exceptional_distance": one * np.tile(distance, 2),
-        "exceptional_sum": one * np.full(len(near), 0.4),
-        "exceptional_discriminant": one * near,
-        "exceptional_product": one * (1.0 - near.clip(0.0) / 1e-5),
-        "exceptional_condition": one / np.abs(near),
-        "followed_of": one * np.zeros(len(strain)),
+        "exceptional_point_track": one * [0, 0],
+        "exceptional_point_birth": one * [1, 0],
+        "exceptional_point_kind": one * [1, 1],
+        "exceptional_point_strain": one * ends,
+        "exceptional_point_exponent_real": one * [0.5, 0.5],
+        "exceptional_point_exponent_pair": one * [0.5, 0.5],
+        "neighbour_point": one * np.repeat([0, 1], len(distance)),
+        "neighbour_distance": one * np.tile(distance, 2),
+        "neighbour_sum": one * np.full(len(near), 0.4),
+        "neighbour_discriminant": one * near,
+        "neighbour_product": one * (1.0 - near.clip(0.0) / 1e-5),
+        "neighbour_condition": one / np.abs(near),
+        "followed_point": one * np.zeros(len(strain)),
         "followed_strain": one * strain,
         "followed_real_1": one * (0.2 + half.real),
         "followed_real_2": one * (0.2 - half.real),
@@ -275,6 +282,6 @@ _VARIABLES = {
     "spectrum_rattlers": _spectrum_rattlers,
     "spectrum_hessian": _spectrum_hessian,
     "shear": _shear,
-    "variants": _variants,
-    "pairs": _pairs,
+    "law_comparison": _variants,
+    "complex_pairs": _pairs,
 }

@@ -120,7 +120,7 @@ def rearranged(packing: Packing, order: np.ndarray) -> Packing:
         rank = np.argsort(order)
         i, j = np.maximum(rank[h.i], rank[h.j]), np.minimum(rank[h.i], rank[h.j])
         sort = np.lexsort((j, i))
-        history = History(i[sort], j[sort], h.tangential_displacement[sort])
+        history = History(i[sort], j[sort], h.spring_state[sort])
     return replace(
         packing,
         fraction=np.ascontiguousarray(packing.fraction[:, order]),
@@ -153,7 +153,7 @@ def test_half_a_turn_changes_nothing(packing, law):
 def mirrored(packing: Packing) -> Packing:
     """x → −x: the strain changes sign, and so does the sense of every slip."""
     h = packing.history
-    history = None if h is None else replace(h, tangential_displacement=-h.tangential_displacement)
+    history = None if h is None else replace(h, spring_state=-h.spring_state)
     fraction = packing.fraction * np.array([[-1], [1]])
     return replace(packing, fraction=fraction, strain=-packing.strain, history=history)
 

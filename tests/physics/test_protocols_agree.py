@@ -53,17 +53,17 @@ def backbone(packing: Packing) -> Packing:
 
 @pytest.fixture(scope="module")
 def ensembles():
-    return {way: ensemble(way) for way in ("fast", "fire")}
+    return {way: ensemble(way) for way in ("fire_newton", "fire")}
 
 
-@pytest.mark.parametrize("way", ["fast", "fire"])
+@pytest.mark.parametrize("way", ["fire_newton", "fire"])
 def test_every_packing_comes_to_rest(ensembles, way):
     assert ensembles[way]["converged"].all()
 
 
 @pytest.mark.parametrize("name", ["phi_jamming", "pressure", "contact_number", "g"])
 def test_distributions_do_not_depend_on_the_protocol(ensembles, name):
-    fast, reference = ensembles["fast"][name], ensembles["fire"][name]
+    fast, reference = ensembles["fire_newton"][name], ensembles["fire"][name]
     assert ks_2samp(fast, reference).pvalue > 0.01
     error = np.sqrt((fast.var(ddof=1) + reference.var(ddof=1)) / SEEDS)
     assert abs(fast.mean() - reference.mean()) < 3 * error

@@ -50,7 +50,7 @@ def state_at(packing: Packing, law: ContactLaw, choices: Shear) -> State:
 def test_rigidity_is_the_slope_of_both_stress_components(law, loaded):
     """Central differences of relaxed states, whose error falls as the square of the step."""
     packing = reference(f"{law.normal}_n64_phi0.900_seed1")[1]
-    choices = Shear(step=1e-5, smallest_step=1e-10, loaded=loaded)
+    choices = Shear(step=1e-5, min_step=1e-10, loaded=loaded)
     now, slopes = state_at(packing, law, choices), []
     for size in (2e-7, 1e-7):
         there, back = (
@@ -68,7 +68,7 @@ def test_work_is_the_change_of_energy_between_events(law):
     packing = reference(f"{law.normal}_n64_phi0.900_seed1")[1]
     missing = []
     for step in (2e-5, 1e-5):
-        choices = Shear(strain=4e-5, step=step, smallest_step=1e-9, loaded=True)
+        choices = Shear(strain=4e-5, step=step, min_step=1e-9, loaded=True)
         curve = walked(packing, law, choices).curve
         work = sum(
             0.5 * (a.stress[0, 1] + b.stress[0, 1]) * (b.strain - a.strain)
@@ -82,8 +82,8 @@ def test_work_is_the_change_of_energy_between_events(law):
 
 def test_work_is_not_the_change_of_energy_where_the_affine_step_leaves_the_springs_alone():
     packing = reference(SMALL)[1]
-    now = state_at(packing, B, Shear(step=1e-3, smallest_step=1e-3))
-    walk = Walk(now, Shear(strain=now.strain + 1e-4, step=1e-4, smallest_step=1e-4), 1)
+    now = state_at(packing, B, Shear(step=1e-3, min_step=1e-3))
+    walk = Walk(now, Shear(strain=now.strain + 1e-4, step=1e-4, min_step=1e-4), 1)
     walk.now = replace(now, units=round(now.strain / 1e-4))
     walk.advance()
     after = walk.curve[-1]
@@ -94,7 +94,7 @@ def test_work_is_not_the_change_of_energy_where_the_affine_step_leaves_the_sprin
 
 @pytest.mark.parametrize("law", [B, ContactLaw("hertz", "elastic", 1.0)], ids=law_name)
 def test_forward_and_back_leads_home(law):
-    choices = Shear(step=1e-5, smallest_step=1e-9)
+    choices = Shear(step=1e-5, min_step=1e-9)
     now = state_at(reference(f"{law.normal}_n64_phi0.900_seed1")[1], law, choices)
     there, _ = step_to(now.strain + 1e-6, now.balance, choices)
     back, _ = step_to(now.strain, there, choices)
@@ -112,7 +112,7 @@ def test_newton_and_damped_dynamics_agree_between_events(seed):
     packing, sigma = harmonic(32, seed), {}
     for relaxation in ("newton", "damped"):
         choices = Shear(
-            strain=4e-4, step=1e-4, smallest_step=1e-4, relaxation=relaxation, time_step=1e-2
+            strain=4e-4, step=1e-4, min_step=1e-4, relaxation=relaxation, time_step=1e-2
         )
         walk = walked(packing, B, choices)
         free = all(c.opened == c.closed == 0 for c in walk.changes)
@@ -150,7 +150,7 @@ def hexagonal() -> tuple[Packing, float]:
 
 def test_contacts_of_a_lattice_open_at_the_strain_of_pencil_and_paper():
     packing, critical = hexagonal()
-    choices = Shear(strain=0.02, step=1e-3, smallest_step=1e-9)
+    choices = Shear(strain=0.02, step=1e-3, min_step=1e-9)
     assert 1e-3 < critical < 0.02
     walk = walked(packing, B, choices)
     event = walk.events[0]
@@ -179,7 +179,7 @@ def test_the_critical_strain_does_not_depend_on_the_first_step(law):
 @pytest.mark.parametrize("law", [B, ContactLaw("harmonic")], ids=law_name)
 def test_a_walk_taken_up_again_ends_with_the_same_bytes(law):
     packing = reference("harmonic_n64_phi0.860_seed2")[1]
-    choices = Shear(strain=0.01, step=1e-4, smallest_step=1e-7)
+    choices = Shear(strain=0.01, step=1e-4, min_step=1e-7)
     whole = row_of(walked(packing, law, choices))
     walk, stops = Walk.start(packing, interaction(law), choices), 0
     while not walk.done and walk.advance():

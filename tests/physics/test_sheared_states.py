@@ -17,7 +17,7 @@ from grainmodes.response.stability import asymmetry
 from grainmodes.stages.shear import row_of
 
 B = ContactLaw("harmonic", "elastic", 1.0)
-CHOICES = Shear(strain=1e-3, step=1e-4, smallest_step=1e-8)
+CHOICES = Shear(strain=1e-3, step=1e-4, min_step=1e-8)
 
 
 @pytest.fixture(scope="module")
@@ -32,13 +32,13 @@ def walk():
 def test_only_springs_that_start_anew_have_reopened(walk):
     before = walk.now.balance
     after, _ = step_to(before.packing.strain + 1e-5, before, CHOICES)
-    history, loads = after.packing.history, np.abs(before.packing.history.tangential_displacement)
+    history, loads = after.packing.history, np.abs(before.packing.history.spring_state)
     assert np.array_equal(history.i, before.packing.history.i)
     assert reopened(before.packing, after.packing, interaction(B)) == 0
     for count in (1, 3):
-        s = history.tangential_displacement.copy()
+        s = history.spring_state.copy()
         s[np.argsort(loads)[-count:]] = 0.0
-        renewed = replace(after.packing, history=replace(history, tangential_displacement=s))
+        renewed = replace(after.packing, history=replace(history, spring_state=s))
         assert reopened(before.packing, renewed, interaction(B)) == count
 
 

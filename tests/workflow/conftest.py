@@ -21,7 +21,7 @@ CHECKOUT = Path(__file__).parents[2]
 SCENE = {
     "study": "tiny",
     "grids": [{"n": [16], "phi": [0.8, 0.85], "kt": [1e-4, 1.0], "seeds": 2}],
-    "block": 2,
+    "seeds_per_job": 2,
     "protocol": {"compression": {"phi_step": 0.01}},
     "figures": ["g_phi", "dos"],
 }

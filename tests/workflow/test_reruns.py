@@ -36,7 +36,7 @@ def test_more_seeds_run_new_blocks_only(study):
     plan = study.run("-n")
     assert "seeds 0002-0003" in plan
     assert "seeds 0000-0001" not in plan
-    new = {"compress": 6, "pack": 2, "rigidity": 4, "step_strain": 4, "spectrum": 4}
+    new = {"compress": 6, "equilibrate": 2, "rigidity": 4, "step_strain": 4, "spectrum": 4}
     assert jobs_in(plan) == new | AFTER_POINTS
 
 
@@ -48,7 +48,7 @@ def test_another_stiffness_makes_no_packing(study):
 
 def test_another_fraction_starts_from_the_checkpoints(study):
     study.write_scene(scene_with(phi=[0.8, 0.843, 0.85]))
-    new = {"pack": 1, "rigidity": 2, "step_strain": 2, "spectrum": 2}
+    new = {"equilibrate": 1, "rigidity": 2, "step_strain": 2, "spectrum": 2}
     assert study.planned() == new | AFTER_POINTS | {"point": 2}
 
 
@@ -62,7 +62,7 @@ def test_another_fraction_starts_from_the_checkpoints(study):
         ("spectrum/dense.py", {"spectrum": 4} | AFTER_POINTS),
         (
             "kernels/laws/elastic.py",
-            {"compress": 6, "pack": 2, "rigidity": 4, "step_strain": 4, "spectrum": 4}
+            {"compress": 6, "equilibrate": 2, "rigidity": 4, "step_strain": 4, "spectrum": 4}
             | AFTER_POINTS,
         ),
     ],
@@ -84,7 +84,7 @@ def test_an_edited_figure_is_redrawn_alone(study):
 def test_another_grid_leaves_the_first_alone(study):
     grid = SCENE["grids"][0] | {"phi": [0.853], "observables": {"spectrum": "none"}}
     study.write_scene(SCENE | {"grids": [*SCENE["grids"], grid]})
-    new = {"pack": 1, "rigidity": 2, "step_strain": 2}
+    new = {"equilibrate": 1, "rigidity": 2, "step_strain": 2}
     assert study.planned() == new | AFTER_POINTS | {"point": 2}
 
 

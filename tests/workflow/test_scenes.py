@@ -8,7 +8,7 @@ from grainmodes.dataset.files import read_block
 
 from .conftest import SCENE, jobs_in
 
-PACKINGS = {"compress": 6, "pack": 2}
+PACKINGS = {"compress": 6, "equilibrate": 2}
 END = {"ensemble": 1, "checks": 1, "claims": 1}
 
 
@@ -19,7 +19,7 @@ def scene_of(observables: dict, **changes) -> dict:
 
 
 def test_every_observable(fresh):
-    asked = ["rattlers", "hessian", "fields", "probes", "close_up", "complex_pairs"]
+    asked = ["rattlers", "hessian", "fields", "claim_diagnostics", "event_detail", "complex_pairs"]
     fresh.write_scene(scene_of(dict.fromkeys(asked, True) | {"spectrum": "eigenvalues"}))
     plan = fresh.run("-n", "-p")
     jobs = jobs_in(plan)
@@ -27,9 +27,9 @@ def test_every_observable(fresh):
         "spectrum",
         "spectrum_rattlers",
         "spectrum_hessian",
-        "probes",
+        "claim_diagnostics",
         "fields",
-        "close_up",
+        "event_detail",
         "pairs",
     ):
         assert jobs[stage] == 4
@@ -38,7 +38,7 @@ def test_every_observable(fresh):
     (gather,) = re.findall(r"grainmodes gather .*phi~0.85/kt~1.0.nc", plan)
     assert "spectrum_hessian/" in gather
     assert "fields/" not in gather
-    assert "close_up/" not in gather
+    assert "event_detail/" not in gather
 
 
 def test_grids_get_what_they_ask_for(fresh):
@@ -51,8 +51,8 @@ def test_grids_get_what_they_ask_for(fresh):
     fresh.write_scene(scene_of({}, grids=grids))
     plan = fresh.run("-n", "-p")
     jobs = jobs_in(plan)
-    assert {rule: jobs[rule] for rule in ("pack", "rigidity", "spectrum", "point")} == {
-        "pack": 3,
+    assert {rule: jobs[rule] for rule in ("equilibrate", "rigidity", "spectrum", "point")} == {
+        "equilibrate": 3,
         "rigidity": 5,
         "spectrum": 2,
         "point": 4,
@@ -63,16 +63,16 @@ def test_grids_get_what_they_ask_for(fresh):
 
 def test_the_default_scene_does_not_leak(fresh):
     default = fresh.folder / "config" / "default.yaml"
-    default.write_text(default.read_text() + "block: 1\n")
-    fresh.write_scene({key: value for key, value in SCENE.items() if key != "block"})
+    default.write_text(default.read_text() + "seeds_per_job: 1\n")
+    fresh.write_scene({key: value for key, value in SCENE.items() if key != "seeds_per_job"})
     assert fresh.planned()["rigidity"] == 4
 
 
 def test_one_point_off_the_grid(study):
     target = "results/tiny/rigidity/n~16/phi~0.853/kt~3e-05/seeds~0001-0001.nc"
-    assert study.planned(target) == {"compress": 6, "pack": 1, "rigidity": 1}
+    assert study.planned(target) == {"compress": 6, "equilibrate": 1, "rigidity": 1}
     inside = target.replace("0001-0001", "0000-0001")
-    assert study.planned(inside) == {"pack": 1, "rigidity": 1}
+    assert study.planned(inside) == {"equilibrate": 1, "rigidity": 1}
     study.run(inside)
     block = read_block(study.folder / inside)
     assert float(block.attributes["phi"]) == 0.853

@@ -108,7 +108,7 @@ def first_packings(wildcards):
 def shear_settings(wildcards):
     """The settings of a shear, done twice where the point's grid asks for it."""
     asked = scene.grid_at(*point_of(wildcards)).observables
-    return scene.settings("shear", unbracketed=asked.unbracketed)
+    return scene.settings("shear", coarse_run=asked.coarse_run)
 
 
 def spectrum_settings(stage):
@@ -126,7 +126,7 @@ def samples_of(stage):
     """The files of a stage that keeps grains: one sample of every point that asks, or all."""
     if stage == "release":
         return releases()
-    points = {"fields": scene.field_points, "close_up": scene.close_up_points}
+    points = {"fields": scene.field_points, "event_detail": scene.event_detail_points}
     return files_of(stage, points[stage])
 
 

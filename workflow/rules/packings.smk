@@ -17,7 +17,7 @@ rule compress:
         " --start {input.start} --settings {params.settings:q} -o {output}"
 
 
-rule pack:
+rule equilibrate:
     input:
         start=checkpoint_for,
         code=sources("grainmodes.stages.packings:packing_block"),
@@ -29,5 +29,5 @@ rule pack:
     message:
         "Balance {wildcards.n} grains at phi = {wildcards.phi} (seeds {wildcards.seeds})."
     shell:
-        "grainmodes pack {input.start} --phi {wildcards.phi}"
+        "grainmodes equilibrate {input.start} --phi {wildcards.phi}"
         " --settings {params.settings:q} -o {output}"

@@ -77,18 +77,18 @@ rule spectrum_hessian:
         " --settings {params.settings:q} -o {output}"
 
 
-rule probes:
+rule claim_diagnostics:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.stages.claim_diagnostics:probes_block"),
+        code=sources("grainmodes.stages.claim_diagnostics:claim_diagnostics_block"),
     output:
-        f"{STUDY}/probes/{RESPONSE}",
+        f"{STUDY}/claim_diagnostics/{RESPONSE}",
     params:
-        settings=scene.settings("probes"),
+        settings=scene.settings("claim_diagnostics"),
     message:
         f"Probe what single claims need at {AT}."
     shell:
-        "grainmodes probes {input.packings} --kt {wildcards.kt}"
+        "grainmodes claim-diagnostics {input.packings} --kt {wildcards.kt}"
         " --settings {params.settings:q} -o {output}"
 
 
@@ -107,24 +107,24 @@ rule shear:
         " --settings {params.settings:q} -o {output}"
 
 
-rule pairs:
+rule complex_pairs:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.stages.pairs:pairs_block"),
+        code=sources("grainmodes.stages.complex_pairs:complex_pairs_block"),
     output:
-        f"{STUDY}/pairs/{RESPONSE}",
+        f"{STUDY}/complex_pairs/{RESPONSE}",
     params:
-        settings=scene.settings("pairs"),
+        settings=scene.settings("complex_pairs"),
     message:
         f"Complex pairs at {AT}."
     shell:
-        "grainmodes pairs {input.packings} --kt {wildcards.kt}"
+        "grainmodes complex-pairs {input.packings} --kt {wildcards.kt}"
         " --settings {params.settings:q} -o {output}"
 
 
 rule release:
     input:
-        pairs=f"{STUDY}/pairs/{RESPONSE}",
+        pairs=f"{STUDY}/complex_pairs/{RESPONSE}",
         code=sources("grainmodes.stages.release:release_block", "grainmodes.stages.checkpoints"),
     output:
         f"{STUDY}/release/{RESPONSE}",
@@ -137,18 +137,18 @@ rule release:
         " --settings {params.settings:q} -o {output}"
 
 
-rule variants:
+rule law_comparison:
     input:
         packings=f"{STUDY}/packings/{BLOCK}",
-        code=sources("grainmodes.stages.law_comparison:variants_block"),
+        code=sources("grainmodes.stages.law_comparison:law_comparison_block"),
     output:
-        f"{STUDY}/variants/{RESPONSE}",
+        f"{STUDY}/law_comparison/{RESPONSE}",
     params:
-        settings=scene.settings("variants"),
+        settings=scene.settings("law_comparison"),
     message:
         f"Tangential laws side by side at {AT}."
     shell:
-        "grainmodes variants {input.packings} --kt {wildcards.kt}"
+        "grainmodes law-comparison {input.packings} --kt {wildcards.kt}"
         " --settings {params.settings:q} -o {output}"
 
 
@@ -167,16 +167,16 @@ rule fields:
         " --settings {params.settings:q} -o {output}"
 
 
-rule close_up:
+rule event_detail:
     input:
         packings=first_packings,
-        code=sources("grainmodes.stages.event_detail:close_up_block"),
+        code=sources("grainmodes.stages.event_detail:event_detail_block"),
     output:
-        f"{STUDY}/close_up/{POINT}",
+        f"{STUDY}/event_detail/{POINT}",
     params:
-        settings=scene.settings("close_up"),
+        settings=scene.settings("event_detail"),
     message:
         "First event at n = {wildcards.n}, phi = {wildcards.phi}, k_T = {wildcards.kt}."
     shell:
-        "grainmodes close-up {input.packings} --kt {wildcards.kt}"
+        "grainmodes event-detail {input.packings} --kt {wildcards.kt}"
         " --settings {params.settings:q} -o {output}"

@@ -29,7 +29,7 @@ def figure(arguments: Namespace) -> None:
     """An ensemble, or files of single samples → one figure."""
     from grainmodes.figures import draw
 
-    asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "fineness", "seed")}
+    asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "bin_density", "seed")}
     options = {name: value for name, value in asked.items() if value is not None}
     draw(arguments.figure, _source(arguments), arguments.output, options)
 

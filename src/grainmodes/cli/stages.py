@@ -44,7 +44,7 @@ def compress(arguments: Namespace) -> None:
     write_block(arguments.output, block)
 
 
-def pack(arguments: Namespace) -> None:
+def equilibrate(arguments: Namespace) -> None:
     """A checkpoint → packings."""
     scene = _scene(arguments.settings, phi=arguments.phi)
     compression, normal = scene.protocol.compression, scene.law.normal
@@ -79,7 +79,7 @@ def spectrum(arguments: Namespace) -> None:
     law, kind = scene.law_at(arguments.kt), scene.grids[0].observables.spectrum
     if kind == "none":
         raise ConfigurationError(
-            "observables.spectrum: expected one of counts, bands, eigenvalues, modes, got 'none'"
+            "observables.spectrum: expected one of counts, binned_averages, eigenvalues, modes, got 'none'"
         )
     rattlers, choices = scene.protocol.rattlers, scene.protocol.spectrum
     processes = arguments.processes
@@ -93,13 +93,13 @@ def spectrum(arguments: Namespace) -> None:
     write_block(arguments.output, block)
 
 
-def probes(arguments: Namespace) -> None:
+def claim_diagnostics(arguments: Namespace) -> None:
     """Packings → what single claims need."""
-    from grainmodes.stages.claim_diagnostics import probes_block
+    from grainmodes.stages.claim_diagnostics import claim_diagnostics_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     with _opened(arguments.packings, "packings") as packings:
-        block = probes_block(packings, scene.law_at(arguments.kt), scene.protocol)
+        block = claim_diagnostics_block(packings, scene.law_at(arguments.kt), scene.protocol)
     write_block(arguments.output, block)
 
 
@@ -122,34 +122,34 @@ def shear(arguments: Namespace) -> None:
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law, choices = scene.law_at(arguments.kt), scene.protocol.shear
-    unbracketed = scene.grids[0].observables.unbracketed
+    coarse_run = scene.grids[0].observables.coarse_run
     with _opened(arguments.packings, "packings") as packings:
         start = law, choices, fingerprint(packings)
-        keeping = Keeping(arguments.output, start, arguments.keep_every)
-        block = shear_block(packings, law, choices, unbracketed, keeping)
+        keeping = Keeping(arguments.output, start, arguments.checkpoint_every)
+        block = shear_block(packings, law, choices, coarse_run, keeping)
     write_block(arguments.output, block)
     keeping.forget()
 
 
-def close_up(arguments: Namespace) -> None:
+def event_detail(arguments: Namespace) -> None:
     """Packings → the first event of the first of them, looked at closely."""
-    from grainmodes.stages.event_detail import close_up_block
+    from grainmodes.stages.event_detail import event_detail_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law = scene.law_at(arguments.kt)
     with _opened(arguments.packings, "packings") as packings:
-        block = close_up_block(packings, law, scene.protocol.shear)
+        block = event_detail_block(packings, law, scene.protocol.shear)
     write_block(arguments.output, block)
 
 
-def pairs(arguments: Namespace) -> None:
+def complex_pairs(arguments: Namespace) -> None:
     """Packings → complex pairs along their shear."""
-    from grainmodes.stages.pairs import pairs_block
+    from grainmodes.stages.complex_pairs import complex_pairs_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law, protocol = scene.law_at(arguments.kt), scene.protocol
     with _opened(arguments.packings, "packings") as packings:
-        block = pairs_block(packings, law, protocol.shear, protocol.pairs)
+        block = complex_pairs_block(packings, law, protocol.shear, protocol.complex_pairs)
     write_block(arguments.output, block)
 
 
@@ -160,22 +160,22 @@ def release(arguments: Namespace) -> None:
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law, choices = scene.law_at(arguments.kt), scene.protocol.release
-    with _opened(arguments.pairs, "pairs") as pairs:
+    with _opened(arguments.pairs, "complex_pairs") as pairs:
         start = law, choices, fingerprint(pairs)
-        keeping = Keeping(arguments.output, start, arguments.keep_every, of_run)
+        keeping = Keeping(arguments.output, start, arguments.checkpoint_every, of_run)
         block = release_block(pairs, law, choices, keeping)
     write_block(arguments.output, block)
     keeping.forget()
 
 
-def variants(arguments: Namespace) -> None:
+def law_comparison(arguments: Namespace) -> None:
     """Packings → their complex pairs under every tangential law."""
-    from grainmodes.stages.law_comparison import variants_block
+    from grainmodes.stages.law_comparison import law_comparison_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law = scene.law_at(arguments.kt)
     with _opened(arguments.packings, "packings") as packings:
-        block = variants_block(packings, law, scene.protocol.shear)
+        block = law_comparison_block(packings, law, scene.protocol.shear)
     write_block(arguments.output, block)
 
 

@@ -75,7 +75,7 @@ def _points(config: dict) -> Iterator[str]:
 
 def _blocks(config: dict) -> Iterator[str]:
     """Grids of the same n share trajectories, so a file of one must do for the other."""
-    block = config["block"]
+    block = config["seeds_per_job"]
     for (first, one), (second, other) in combinations(enumerate(config["grids"]), 2):
         shared = sorted(set(one["n"]) & set(other["n"]))
         fewer, more = sorted((one["seeds"], other["seeds"]))

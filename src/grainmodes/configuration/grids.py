@@ -21,13 +21,13 @@ class Observables:
     rattlers: bool = False
     hessian: bool = False
     fields: bool = False
-    probes: bool = False
+    claim_diagnostics: bool = False
     shear: bool = False
-    unbracketed: bool = False
-    close_up: bool = False
+    coarse_run: bool = False
+    event_detail: bool = False
     complex_pairs: bool = False
     release: bool = False
-    variants: bool = False
+    law_comparison: bool = False
 
     @property
     def words(self) -> set[str]:
@@ -35,16 +35,16 @@ class Observables:
         offered = {
             "rigidity": self.rigidity,
             "spectrum": self.spectrum != "none",
-            "modes": self.spectrum in ("bands", "modes"),
+            "modes": self.spectrum in ("binned_averages", "modes"),
             "rattlers": self.rattlers,
             "hessian": self.hessian,
             "fields": self.fields,
             "shear": self.shear,
-            "unbracketed": self.shear and self.unbracketed,
-            "close_up": self.close_up,
+            "coarse_run": self.shear and self.coarse_run,
+            "event_detail": self.event_detail,
             "complex_pairs": self.complex_pairs,
             "release": self.release,
-            "variants": self.variants,
+            "law_comparison": self.law_comparison,
         }
         return {word for word, here in offered.items() if here}
 
@@ -91,11 +91,11 @@ class Grid:
             "spectrum": asked.spectrum != "none",
             "spectrum_rattlers": asked.rattlers,
             "spectrum_hessian": asked.hessian and kt > 0.0,
-            "probes": asked.probes and kt > 0.0,
+            "claim_diagnostics": asked.claim_diagnostics and kt > 0.0,
             "shear": asked.shear,
-            "pairs": asked.complex_pairs and kt > 0.0,
+            "complex_pairs": asked.complex_pairs and kt > 0.0,
             "release": asked.release and kt > 0.0,
-            "variants": asked.variants and kt > 0.0,
+            "law_comparison": asked.law_comparison and kt > 0.0,
         }
         return [stage for stage, here in wanted.items() if here]
 

@@ -11,7 +11,7 @@ from grainmodes.parameters.fields import MOST_FOR_ALL_MODES
 from grainmodes.parameters.figures import FIGURES
 from grainmodes.parameters.grid import CHECKPOINT_SPACING, LOWEST_CHECKPOINT
 from grainmodes.parameters.law import COULOMB_LAWS, ELASTIC_LAWS
-from grainmodes.parameters.variants import MOST_GRAINS
+from grainmodes.parameters.law_comparison import MAX_GRAINS
 
 
 def conflicts(config: dict) -> Iterator[str]:
@@ -49,15 +49,15 @@ def _coulomb(config: dict) -> Iterator[str]:
 
 
 def _variants(config: dict) -> Iterator[str]:
-    asked = [grid for grid in config["grids"] if grid["observables"]["variants"]]
+    asked = [grid for grid in config["grids"] if grid["observables"]["law_comparison"]]
     if asked and config["contact_law"]["friction_coefficient"] is None:
         yield (
             "contact_law.friction_coefficient: expected a number above 0 because "
-            "observables.variants is true, and a tangential law that has one "
+            "observables.law_comparison is true, and a tangential law that has one "
             f"({', '.join(COULOMB_LAWS)}), got none"
         )
-    for n in (n for grid in asked for n in grid["n"] if n > MOST_GRAINS):
-        yield f"observables.variants: expected grids of at most {MOST_GRAINS} grains, got n = {n}"
+    for n in (n for grid in asked for n in grid["n"] if n > MAX_GRAINS):
+        yield f"observables.law_comparison: expected grids of at most {MAX_GRAINS} grains, got n = {n}"
 
 
 def _steps(config: dict) -> Iterator[str]:
@@ -77,12 +77,12 @@ def _steps(config: dict) -> Iterator[str]:
 
 def _shear(config: dict) -> Iterator[str]:
     shear = config["protocol"]["shear"]
-    strain, step, smallest = shear["strain"], shear["step"], shear["smallest_step"]
+    strain, step, smallest = shear["strain"], shear["step"], shear["min_step"]
     if not _whole(strain / step):
         yield f"protocol.shear.strain: expected a whole number of steps of {step}, got {strain}"
     if step < smallest or not _whole(math.log10(step / smallest)):
         yield (
-            f"protocol.shear.smallest_step: expected {step} divided by 1, 10, 100 and so on, "
+            f"protocol.shear.min_step: expected {step} divided by 1, 10, 100 and so on, "
             f"got {smallest}"
         )
 
@@ -99,17 +99,17 @@ def _figures(config: dict) -> Iterator[str]:
 
 NEEDED = {
     "rigidity": "observables.rigidity: true",
-    "spectrum": "observables.spectrum: counts, bands, eigenvalues or modes",
-    "modes": "observables.spectrum: bands or modes",
+    "spectrum": "observables.spectrum: counts, binned_averages, eigenvalues or modes",
+    "modes": "observables.spectrum: binned_averages or modes",
     "rattlers": "observables.rattlers: true",
     "hessian": "observables.hessian: true",
     "fields": "observables.fields: true",
     "shear": "observables.shear: true",
-    "unbracketed": "observables.unbracketed: true",
-    "close_up": "observables.close_up: true",
+    "coarse_run": "observables.coarse_run: true",
+    "event_detail": "observables.event_detail: true",
     "complex_pairs": "observables.complex_pairs: true",
     "release": "observables.release: true",
-    "variants": "observables.variants: true",
+    "law_comparison": "observables.law_comparison: true",
     "friction": "these observables at a kt above 0",
     "frictionless": "these observables at kt = 0",
     "all_modes": f"these observables at an n of at most {MOST_FOR_ALL_MODES}",

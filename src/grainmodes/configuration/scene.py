@@ -6,10 +6,10 @@ import json
 from dataclasses import asdict, dataclass, replace
 
 from grainmodes.configuration.grids import Grid, drawable
+from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import Point, seed_blocks
 from grainmodes.parameters.law import ContactLaw, Rattlers
-from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import SpectrumChoices
@@ -26,7 +26,7 @@ class Scene:
 
     study: str
     grids: tuple[Grid, ...]
-    block: int
+    seeds_per_job: int
     law: ContactLaw
     protocol: Protocol
     figures: tuple[str, ...]
@@ -38,13 +38,13 @@ class Scene:
         return cls(
             study=config["study"],
             grids=grids,
-            block=int(config["block"]),
+            seeds_per_job=int(config["seeds_per_job"]),
             law=ContactLaw(**config["contact_law"]),
             protocol=Protocol(
                 Compression(**protocol["compression"]),
                 StepStrain(**protocol["step_strain"]),
                 Shear(**protocol["shear"]),
-                PairChoices(**protocol["pairs"]),
+                PairChoices(**protocol["complex_pairs"]),
                 Release(
                     **protocol["release"] | {"dampings": tuple(protocol["release"]["dampings"])}
                 ),
@@ -70,9 +70,11 @@ class Scene:
         return [point for grid in self.grids if grid.observables.shear for point in grid.points]
 
     @property
-    def close_up_points(self) -> list[Point]:
-        """The points of the grids that ask for a close-up."""
-        return [point for grid in self.grids if grid.observables.close_up for point in grid.points]
+    def event_detail_points(self) -> list[Point]:
+        """The points of the grids that ask for an event detail."""
+        return [
+            point for grid in self.grids if grid.observables.event_detail for point in grid.points
+        ]
 
     @property
     def release_points(self) -> list[Point]:
@@ -87,7 +89,7 @@ class Scene:
 
     def blocks_of(self, n: int, phi: float, kt: float) -> list[str]:
         """Names of the blocks of seeds of a point."""
-        return seed_blocks(self.grid_at(n, phi, kt).seeds, self.block)
+        return seed_blocks(self.grid_at(n, phi, kt).seeds, self.seeds_per_job)
 
     def responses(self, n: int, phi: float, kt: float) -> list[str]:
         """Stages that a point asks for, beside its packings and fields."""
@@ -102,11 +104,11 @@ class Scene:
         """The contact law with this tangential stiffness."""
         return replace(self.law, kt=kt)
 
-    def settings(self, stage: str, kind: str = "modes", unbracketed: bool = False) -> str:
+    def settings(self, stage: str, kind: str = "modes", coarse_run: bool = False) -> str:
         """The part of the scene that a stage depends on, as JSON: the argument of its command.
 
         Everything a stage ignores stays out, so that changing it does not make the stage again.
-        `kind` is that of the spectrum, `unbracketed` the observable beside the shear.
+        `kind` is that of the spectrum, `coarse_run` the observable beside the shear.
         """
         law = {key: value for key, value in asdict(self.law).items() if key != "kt"}
         protocol = asdict(self.protocol)
@@ -119,13 +121,13 @@ class Scene:
             "spectrum_rattlers": spectrum | {"observables": {"spectrum": kind}},
             "spectrum_hessian": spectrum,
             "fields": _part(law, protocol, "rattlers", "step_strain"),
-            "probes": _part(law, protocol, "rattlers", "step_strain"),
+            "claim_diagnostics": _part(law, protocol, "rattlers", "step_strain"),
             "shear": _part(law, protocol, "shear")
-            | {"observables": {"shear": True, "unbracketed": unbracketed}},
-            "close_up": _part(law, protocol, "shear"),
-            "pairs": _part(law, protocol, "shear", "pairs"),
+            | {"observables": {"shear": True, "coarse_run": coarse_run}},
+            "event_detail": _part(law, protocol, "shear"),
+            "complex_pairs": _part(law, protocol, "shear", "complex_pairs"),
             "release": _part(law, protocol, "release"),
-            "variants": _part(law, protocol, "shear"),
+            "law_comparison": _part(law, protocol, "shear"),
             "ensemble": _part(law, protocol, *protocol) | {"study": self.study},
         }
         return json.dumps(parts[stage], sort_keys=True)

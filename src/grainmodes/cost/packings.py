@@ -35,7 +35,7 @@ def _files(scene: Scene, n: int) -> list[tuple[float, str]]:
         for grid in scene.grids
         if n in grid.n
         for phi in grid.phi
-        for block in seed_blocks(grid.seeds, scene.block)
+        for block in seed_blocks(grid.seeds, scene.seeds_per_job)
     }
     return sorted(asked)
 
@@ -55,11 +55,11 @@ def _compress(table: Table, n: int, whole: float, files: list[tuple[float, str]]
 
 
 def _pack(table: Table, n: int, whole: float, files: list[tuple[float, str]]) -> Item:
-    balance = table.laws["pack"].seconds_at(n)
+    balance = table.laws["equilibrate"].seconds_at(n)
 
     def branch(size: int, phi: float) -> Job:
         way = table.share(phi) - table.share(checkpoint_at_or_below(phi))
         return Job(size, size * (whole * way + balance), size * n * table.disk["packing"])
 
     chains = [[branch(len(parse_seeds(block)), phi)] for phi, block in files]
-    return Item.of("pack", None, n, chains, [table.laws["pack"]], table)
+    return Item.of("equilibrate", None, n, chains, [table.laws["equilibrate"]], table)

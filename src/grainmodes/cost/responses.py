@@ -10,7 +10,7 @@ from grainmodes.cost.table import Table
 from grainmodes.cost.work import degrees_of_freedom, work
 from grainmodes.parameters.grid import Point, parse_seeds, seed_blocks
 
-NUMBERS = {"counts": 0, "bands": 0, "eigenvalues": 1, "modes": 3}
+NUMBERS = {"counts": 0, "binned_averages": 0, "eigenvalues": 1, "modes": 3}
 """Numbers per mode that a kind of spectrum stores."""
 
 COPIES = 3
@@ -20,11 +20,11 @@ COPIES = 3
 def responses(scene: Scene, table: Table, place: int) -> Iterator[Item]:
     """The stages of the grid at this place of the scene, those of one sample included."""
     grid = scene.grids[place]
-    sizes = [len(parse_seeds(block)) for block in seed_blocks(grid.seeds, scene.block)]
+    sizes = [len(parse_seeds(block)) for block in seed_blocks(grid.seeds, scene.seeds_per_job)]
     for n in grid.n:
         for stage, points in _stages(grid, n).items():
             yield _response(scene, table, place, stage, points, sizes)
-        for stage in ("fields", "close_up"):
+        for stage in ("fields", "event_detail"):
             if getattr(grid.observables, stage):
                 yield _response(scene, table, place, stage, _points(grid, n), [1])
 

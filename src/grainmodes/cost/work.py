@@ -1,10 +1,10 @@
 """Which work a stage does on one sample: the name of a law → how many units of it.
 
 Spectra follow the rules by which the stages choose a method: LAPACK up to a size; beyond, counts
-at the edges of bins, or windows of eigenpairs. ψ^R of a bin is counted in `substeps` cells: each at
-its end on the diagonal and at two corners, and pairs of cells once more at two, four counts a cell.
-p takes the eigenpairs of a bin, at most `modes_per_bin`. A shear is priced per step of 1e-4,
-complex pairs per state, a release per million steps of all its runs.
+at the edges of bins, or windows of eigenpairs. ψ^R of a bin is counted in `cells_per_bin` cells:
+each at its end on the diagonal and at two corners, and pairs of cells once more at two, four
+counts a cell. p takes the eigenpairs of a bin, at most `modes_per_bin`. A shear is priced per step
+of 1e-4, complex pairs per state, a release per million steps of all its runs.
 """
 
 from __future__ import annotations
@@ -51,19 +51,19 @@ def work(
         return {name: 2 * units for name, units in once.items()}
     if stage.startswith("spectrum"):
         return _spectrum(kind, n, kt, choices, table)
-    if stage in ("shear", "variants"):
+    if stage in ("shear", "law_comparison"):
         return {stage: protocol.shear.strain / USUAL_STEP}
     if stage == "release":
         return {"release": _runs(protocol.release)}
-    if stage == "pairs":
-        return {"pairs": protocol.shear.strain / protocol.shear.step}
+    if stage == "complex_pairs":
+        return {"complex_pairs": protocol.shear.strain / protocol.shear.step}
     return {stage: 1}
 
 
 def _runs(choices: Release) -> float:
     """Millions of steps of all runs of a release."""
     growth = choices.duration / USUAL_RATE
-    time = max(growth, choices.least_time) + len(choices.dampings) * growth
+    time = max(growth, choices.min_time) + len(choices.dampings) * growth
     return 1e-6 * time / choices.time_step
 
 
@@ -72,29 +72,29 @@ def degrees_of_freedom(n: int, kt: float) -> int:
     return n * (3 if kt > 0.0 else 2)
 
 
-def bins(kt: float, fineness: float) -> float:
+def bins(kt: float, bin_density: float) -> float:
     """About how many bins A's recipe makes."""
     rotational = ROTATIONAL_DIVISIONS if kt > 0.0 else 0
-    return LOGARITHMIC_BINS - HIGHEST_BINS + fineness * (HIGHEST_DIVISIONS + rotational)
+    return LOGARITHMIC_BINS - HIGHEST_BINS + bin_density * (HIGHEST_DIVISIONS + rotational)
 
 
 def _spectrum(kind: str, n: int, kt: float, choices: SpectrumChoices, table: Table):
-    modes, edges = degrees_of_freedom(n, kt), bins(kt, choices.fineness) + 1
+    modes, edges = degrees_of_freedom(n, kt), bins(kt, choices.bin_density) + 1
     if _dense(kind, modes, choices.method, table):
         return {"dense_values" if kind in ("counts", "eigenvalues") else "dense_modes": 1}
     backend = _backend(choices.factorisation, modes)
     if kind == "counts":
         return {f"count_{backend}": edges}
-    if kind == "bands":
+    if kind == "binned_averages":
         return {
-            f"count_{backend}": edges * (4 * choices.substeps if kt > 0.0 else 1),
+            f"count_{backend}": edges * (4 * choices.cells_per_bin if kt > 0.0 else 1),
             f"window_{backend}": min(modes, edges * choices.modes_per_bin),
         }
     return {f"window_{backend}": modes}
 
 
 def _dense(kind: str, modes: int, method: str, table: Table) -> bool:
-    named = method == "windows" or (method == "counting" and kind in BINNED)
+    named = method == "slicing" or (method == "inertia_counts" and kind in BINNED)
     limit = DENSE_COUNTS_UP_TO if kind == "counts" else DENSE_MODES_UP_TO
     return method == "dense" or (not named and modes <= limit)
 

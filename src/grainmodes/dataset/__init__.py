@@ -6,16 +6,16 @@
 from __future__ import annotations
 
 from grainmodes.dataset import (
-    close_up,
+    claim_diagnostics,
+    complex_pairs,
+    event_detail,
     fields,
+    law_comparison,
     packing,
-    pairs,
-    probes,
     release,
     rigidity,
     shear,
     spectrum,
-    variants,
 )
 from grainmodes.dataset.variable import Variable
 
@@ -25,13 +25,13 @@ VARIABLES: dict[str, Variable] = {
         packing,
         rigidity,
         spectrum,
-        probes,
+        claim_diagnostics,
         fields,
         shear,
-        close_up,
-        pairs,
+        event_detail,
+        complex_pairs,
         release,
-        variants,
+        law_comparison,
     )
     for name, row in theme.NAMES.items()
 }

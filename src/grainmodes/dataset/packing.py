@@ -25,7 +25,7 @@ NAMES = {
     "strain": Variable(BLOCK, "f8", "1", "shear strain of the Lees-Edwards box"),
     "contact_i": Variable(("seed", "contact"), "i4", "1", "grain i of a contact, i > j; -1: none"),
     "contact_j": Variable(("seed", "contact"), "i4", "1", "grain j of a contact; -1: none"),
-    "tangential_displacement": Variable(
+    "spring_state": Variable(
         ("seed", "contact"), "f8", "d", "signed tangential displacement s of a contact"
     ),
     "pressure": Variable(BLOCK, "f8", MODULUS, "pressure (sigma_xx + sigma_yy) / -2"),

@@ -40,11 +40,11 @@ NAMES = {
         STATE, "f8", MODULUS, "smallest eigenvalue of the Jacobian but its translations"
     ),
     "curve_count": Variable(BLOCK, "i8", "1", "number of states of the curve"),
-    "unbracketed_strain": Variable(
-        ("seed", "unbracketed_state"), "f8", "1", "strain of a state, events not bracketed"
+    "coarse_strain": Variable(
+        ("seed", "coarse_state"), "f8", "1", "strain of a state, events not bracketed"
     ),
-    "unbracketed_stress": Variable(
-        ("seed", "unbracketed_state"), "f8", MODULUS, "(sigma_xy + sigma_yx) / 2 of such a state"
+    "coarse_stress": Variable(
+        ("seed", "coarse_state"), "f8", MODULUS, "(sigma_xy + sigma_yx) / 2 of such a state"
     ),
     # events
     "event_count": Variable(BLOCK, "i8", "1", "number of plastic events"),
@@ -69,14 +69,16 @@ NAMES = {
     **_sides("event_fraction", Variable((*GRAINS, "axis"), "i8", "2^-64 L", "grain position")),
     **_sides("event_contact_i", Variable(CONTACTS, "i4", "1", "grain i of a contact; -1: none")),
     **_sides("event_contact_j", Variable(CONTACTS, "i4", "1", "grain j of a contact; -1: none")),
-    **_sides("event_slip", Variable(CONTACTS, "f8", "d", "tangential displacement of a contact")),
+    **_sides(
+        "event_spring_state", Variable(CONTACTS, "f8", "d", "tangential displacement of a contact")
+    ),
     "event_displacement": Variable(
         (*GRAINS, "component"), "f8", "d", "displacement in an event, (x, y, l); its mean is 0"
     ),
     "event_quadrupole": Variable(
         EVENT, "f8", "1", "p_2 of the rotations around the grain that moves farthest; NaN: none"
     ),
-    "event_other_poles": Variable(EVENT, "f8", "1", "mean of their p_1, p_3 and p_4"),
+    "event_other_multipoles": Variable(EVENT, "f8", "1", "mean of their p_1, p_3 and p_4"),
     # the last state
     "last_asymmetry": Variable(BLOCK, "f8", "1", "max |J - J^T| / max |J| of the last state"),
     "last_complex_pairs": Variable(

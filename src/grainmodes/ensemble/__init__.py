@@ -4,12 +4,12 @@ Its averages: `averages`; its spectra: `spectra`.
 """
 
 from grainmodes.ensemble.point import gather_point, merge_blocks
-from grainmodes.ensemble.reading import configuration, fineness, normal_law, open_ensemble
+from grainmodes.ensemble.reading import bin_density, configuration, normal_law, open_ensemble
 from grainmodes.ensemble.study import write_ensemble
 
 __all__ = [
+    "bin_density",
     "configuration",
-    "fineness",
     "gather_point",
     "merge_blocks",
     "normal_law",

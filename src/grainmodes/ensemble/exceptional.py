@@ -21,19 +21,19 @@ if TYPE_CHECKING:
     import xarray as xr
 
 COALESCENCE = 1
-"""The `located_kind` of a point where two eigenvalues meet."""
+"""The `exceptional_point_kind` of a point where two eigenvalues meet."""
 
 AXES = ("n", "phi", "kt", "seed")
-NEAR = ("of", "distance", "sum", "discriminant", "product", "condition")
-PATH = ("of", "strain", "real_1", "real_2", "imaginary", "product")
+NEAR = ("point", "distance", "sum", "discriminant", "product", "condition")
+PATH = ("point", "strain", "real_1", "real_2", "imaginary", "product")
 PRODUCT = ("strain", "mode", "other", "value")
 
 
 @dataclass(frozen=True)
 class Sample:
-    """What one sample knows: coalescences, states around them, paths; data frames by number `of`.
+    """Coalescences of one sample, states around them, paths: data frames with the number `point`.
 
-    `points` has life, birth, strain, and the exponents where the modes are real and are a pair.
+    `points` has track, birth, strain, and the exponents where the modes are real and are a pair.
     """
 
     place: dict[str, float]
@@ -50,11 +50,11 @@ def samples(ensemble: xr.Dataset) -> list[Sample]:
         BlockError: its study did not ask for complex pairs.
     """
     variable(ensemble, "pair_state_count")
-    if "located_kind" not in ensemble:
+    if "exceptional_point_kind" not in ensemble:
         return []
     used = (ensemble["converged"] == 1) & (ensemble["jammed"] == 1)
-    kinds = ensemble["located_kind"].where(used)
-    found = (kinds == COALESCENCE).any("located").transpose(*AXES).to_numpy()
+    kinds = ensemble["exceptional_point_kind"].where(used)
+    found = (kinds == COALESCENCE).any("exceptional_point").transpose(*AXES).to_numpy()
     grid = [ensemble[axis].to_numpy().tolist() for axis in AXES]
     places = [[of[k] for of, k in zip(grid, at, strict=True)] for at in np.argwhere(found).tolist()]
     return [_sample(ensemble, dict(zip(AXES, place, strict=True))) for place in places]
@@ -62,11 +62,11 @@ def samples(ensemble: xr.Dataset) -> list[Sample]:
 
 def _sample(ensemble: xr.Dataset, place: dict[str, float]) -> Sample:
     row = ensemble.sel(place)
-    names = ("life", "birth", "kind", "strain", "exponent_real", "exponent_pair")
-    points = _frame(row, "located", names)
+    names = ("track", "birth", "kind", "strain", "exponent_real", "exponent_pair")
+    points = _frame(row, "exceptional_point", names)
     points = points[points["kind"] == COALESCENCE]
     products = _frame(row, "product", PRODUCT).rename(columns={"value": "product"})
-    near, path = _frame(row, "exceptional", NEAR), _frame(row, "followed", PATH)
+    near, path = _frame(row, "neighbour", NEAR), _frame(row, "followed", PATH)
     return Sample(place, points, near, path, products)
 
 

@@ -25,18 +25,18 @@ STAGES = (
     "spectrum",
     "spectrum_rattlers",
     "spectrum_hessian",
-    "probes",
+    "claim_diagnostics",
     "shear",
-    "pairs",
+    "complex_pairs",
     "release",
-    "variants",
+    "law_comparison",
 )
 """Values of the attribute `stage`, in the order in which names win."""
 
 SERIES = (
-    *("mode", "edge", "bin", "probe", "state", "unbracketed_state", "event", "change", "bracket"),
-    *("pair_state", "life", "located", "exceptional_state", "followed_state", "product"),
-    *("damping", "variant_state"),
+    *("mode", "edge", "bin", "diagnostic", "state", "coarse_state", "event", "change", "bracket"),
+    *("pair_state", "track", "exceptional_point", "neighbour_state", "followed_state", "product"),
+    *("damping", "comparison_state"),
 )
 
 PER_SAMPLE = (("seed",), *(("seed", name) for name in SERIES))

@@ -65,7 +65,7 @@ def normal_law(ensemble: xr.Dataset) -> str:
     return configuration(ensemble).get("contact_law", {}).get("normal", ContactLaw.normal)
 
 
-def fineness(ensemble: xr.Dataset) -> float:
+def bin_density(ensemble: xr.Dataset) -> float:
     """Factor on the numbers of linear bins that the study chose for its spectra."""
     protocol = configuration(ensemble).get("protocol", {})
-    return protocol.get("spectrum", {}).get("fineness", SpectrumChoices().fineness)
+    return protocol.get("spectrum", {}).get("bin_density", SpectrumChoices().bin_density)

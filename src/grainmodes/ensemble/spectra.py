@@ -41,7 +41,7 @@ class Spectrum(NamedTuple):
         return binning.binned(self.frequency, modes, *self[1:], edges)
 
 
-def shared_edges(spectra: list[Spectrum | Binned], kappa: float, fineness: float) -> np.ndarray:
+def shared_edges(spectra: list[Spectrum | Binned], kappa: float, bin_density: float) -> np.ndarray:
     """A's bins over the range of all spectra, or the bins in which one of them was counted.
 
     One edge only where there is no vibration.
@@ -52,7 +52,7 @@ def shared_edges(spectra: list[Spectrum | Binned], kappa: float, fineness: float
     frequency = np.concatenate([of.frequency.ravel() for of in spectra])
     if not np.isfinite(frequency).any():
         return np.zeros(1)
-    return binning.bin_edges(kappa, np.nanmin(frequency), np.nanmax(frequency), fineness)
+    return binning.bin_edges(kappa, np.nanmin(frequency), np.nanmax(frequency), bin_density)
 
 
 def points_with(ensemble: xr.Dataset, *names: str) -> xr.DataArray:

@@ -69,9 +69,9 @@ def check_springs(history) -> None:
     """Refuse a history, if there is one, with a spring state that is NaN or infinite."""
     if history is None:
         return
-    bad = np.flatnonzero(~np.isfinite(history.tangential_displacement))
+    bad = np.flatnonzero(~np.isfinite(history.spring_state))
     if len(bad):
-        i, j, s = (getattr(history, x)[bad[0]] for x in ("i", "j", "tangential_displacement"))
+        i, j, s = (getattr(history, x)[bad[0]] for x in ("i", "j", "spring_state"))
         raise PackingError(
             f"the spring between grains {i} and {j}: expected a finite number, got {s}"
         )

@@ -4,7 +4,7 @@
 | ----------------- | ----------------------- | -------------------- | ------- |
 | n_ij = r_ij/r_ij  | normal                  | (C, 2) float64       | 1       |
 | r_ij, ξ_ij        | distance, overlap       | (C,) float64         | d       |
-| s_ij, ξ_T,ij      | tangential_displacement | (C,) float64 or None | d       |
+| s_ij, ξ_T,ij      | spring_state | (C,) float64 or None | d       |
 
 Friction that was never loaded is `None`: it is neither stored nor computed.
 """
@@ -25,7 +25,7 @@ class Contacts:
     normal: np.ndarray
     distance: np.ndarray
     overlap: np.ndarray
-    tangential_displacement: np.ndarray | None = None
+    spring_state: np.ndarray | None = None
 
     @property
     def tangent(self) -> np.ndarray:
@@ -35,7 +35,7 @@ class Contacts:
     @property
     def displacement(self) -> np.ndarray:
         """s of every contact, zero where friction was never loaded; shape (C,)."""
-        s = self.tangential_displacement
+        s = self.spring_state
         return np.zeros(len(self.i)) if s is None else s
 
     def among(self, keep: np.ndarray) -> Contacts:
@@ -43,7 +43,7 @@ class Contacts:
         if keep.all():
             return self
         held, i, j = _among(keep, self.i, self.j)
-        s = self.tangential_displacement
+        s = self.spring_state
         return Contacts(
             i,
             j,
@@ -60,19 +60,19 @@ class History:
 
     i: np.ndarray
     j: np.ndarray
-    tangential_displacement: np.ndarray
+    spring_state: np.ndarray
 
     @classmethod
-    def of(cls, i: np.ndarray, j: np.ndarray, tangential_displacement: np.ndarray) -> History:
+    def of(cls, i: np.ndarray, j: np.ndarray, spring_state: np.ndarray) -> History:
         """The history of pairs in any order; s does not change sign when i and j are swapped."""
         high, low = np.maximum(i, j), np.minimum(i, j)
         order = np.lexsort((low, high))
-        return cls(high[order], low[order], np.asarray(tangential_displacement)[order])
+        return cls(high[order], low[order], np.asarray(spring_state)[order])
 
     def among(self, keep: np.ndarray) -> History:
         """The contacts between the grains of a (N,) mask, in their new numbers."""
         held, i, j = _among(keep, self.i, self.j)
-        return History(i, j, self.tangential_displacement[held])
+        return History(i, j, self.spring_state[held])
 
 
 def _among(

@@ -31,7 +31,7 @@ def forces_on_i(contacts: Contacts, interaction: Interaction) -> np.ndarray:
     """Force of every contact on its grain i, k_N d^(3/2): (C, 2), or (C, 3) with f_T last."""
     if is_frictionless(interaction):
         return normal_forces(interaction, contacts.normal, contacts.overlap)
-    s = contacts.tangential_displacement
+    s = contacts.spring_state
     return contact_forces(interaction, contacts.normal, contacts.overlap, s)
 
 
@@ -77,7 +77,7 @@ def stress(packing: Packing, contacts: Contacts, interaction: Interaction) -> np
 
 def energy(contacts: Contacts, interaction: Interaction) -> float:
     """Energy stored in the contacts: see `kernels.energies`."""
-    s = contacts.tangential_displacement
+    s = contacts.spring_state
     return float(contact_energies(interaction, contacts.overlap, s).sum())
 
 

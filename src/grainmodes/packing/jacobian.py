@@ -32,7 +32,7 @@ def stiffness_of(contacts: Contacts, interaction: Interaction) -> np.ndarray:
         contacts.normal,
         contacts.distance,
         contacts.overlap,
-        contacts.tangential_displacement,
+        contacts.spring_state,
     )
 
 

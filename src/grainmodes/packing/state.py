@@ -65,7 +65,7 @@ class Packing:
             float(box_length),
             float(strain),
             None,
-            history and History.of(history.i, history.j, history.tangential_displacement),
+            history and History.of(history.i, history.j, history.spring_state),
         )
 
     def checked(self) -> Packing:
@@ -173,7 +173,7 @@ def find_contacts(packing: Packing) -> Contacts:
         k = int(np.argmin(distance))
         raise PackingError(f"grains {i[k]} and {j[k]} lie at the same place: no normal is defined")
     known = packing.history
-    s = known and matched(known.i, known.j, known.tangential_displacement, i, j)
+    s = known and matched(known.i, known.j, known.spring_state, i, j)
     return Contacts(i, j, normal, distance, overlap, s)
 
 

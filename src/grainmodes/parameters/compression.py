@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-RELAXATIONS = ("fast", "fire")
+RELAXATIONS = ("fire_newton", "fire")
 
 
 @dataclass(frozen=True)
@@ -14,10 +14,10 @@ class Compression:
     Half of the grains have `large_diameter`, the others 1/1.4 of it; `masses` are d_i² ("area": A,
     B) or all 1 ("equal": C, whose unit of length is the small diameter, so its large one is 1.4).
     `intermediate_balance` is the largest force left after a step, relative to the mean contact
-    force (`fast` only: `fire` brings every step to `force_tolerance`, as paper A does).
+    force (`fire_newton` only: `fire` brings every step to `force_tolerance`, as paper A does).
     """
 
-    relaxation: str = "fast"
+    relaxation: str = "fire_newton"
     initial_phi: float = 0.6
     phi_step: float = 1e-4
     intermediate_balance: float = 1e-3

@@ -11,7 +11,7 @@ class Figure:
 
     `room` is the package of `grainmodes.figures` that holds its module; `observables` are words of
     `configuration.grids`; `source` is "ensemble", or the stage of the files of single samples:
-    "fields", "close_up", "release".
+    "fields", "event_detail", "release".
     """
 
     room: str
@@ -95,7 +95,7 @@ FIGURES = {
     "stress_brackets": Figure(
         "paper_b",
         "Stress against strain, events bracketed and not (paper B, Fig. 2)",
-        ("shear", "unbracketed"),
+        ("shear", "coarse_run"),
     ),
     "rigidity_strain": Figure(
         "paper_b", "Rigidity and smallest eigenvalue at small strain (paper B, Fig. 7)", ("shear",)
@@ -106,38 +106,38 @@ FIGURES = {
     "event_states": Figure(
         "paper_b",
         "Lowest eigenvalue and rigidity around an event (paper B, Figs. 3 and 13)",
-        ("close_up",),
-        "close_up",
+        ("event_detail",),
+        "event_detail",
     ),
     "event_eigenvectors": Figure(
         "paper_b",
         "Lowest eigenvector before and after an event (paper B, Fig. 4)",
-        ("close_up",),
-        "close_up",
+        ("event_detail",),
+        "event_detail",
     ),
     "event_rate": Figure(
         "paper_b",
         "Non-affine displacement rate after an event, theory and simulation (paper B, Fig. 5)",
-        ("close_up",),
-        "close_up",
+        ("event_detail",),
+        "event_detail",
     ),
     "event_displacement": Figure(
         "paper_b",
         "Non-affine displacement in an event (paper B, Fig. 6)",
-        ("close_up",),
-        "close_up",
+        ("event_detail",),
+        "event_detail",
     ),
     "tangential_error": Figure(
         "paper_b",
         "Normal part of the integral of tangential velocities (paper B, Fig. 10)",
-        ("close_up", "friction"),
-        "close_up",
+        ("event_detail", "friction"),
+        "event_detail",
     ),
     "event_brackets": Figure(
         "paper_b",
         "Stress and strain of an event in closer brackets (paper B, Figs. 11 and 12)",
-        ("close_up",),
-        "close_up",
+        ("event_detail",),
+        "event_detail",
     ),
     "pair_birth": Figure(
         "paper_c",
@@ -166,7 +166,7 @@ FIGURES = {
         ("release", "friction"),
         "release",
     ),
-    "release_fate": Figure(
+    "release_outcome": Figure(
         "paper_c",
         "Long-time fate of released states (paper C, Fig. 7)",
         ("release", "friction"),
@@ -190,10 +190,10 @@ FIGURES = {
     "release_damping": Figure(
         "paper_c", "Release under damping (paper C, Fig. 11)", ("release", "friction"), "release"
     ),
-    "pair_variants": Figure(
+    "law_comparison": Figure(
         "paper_c",
         "Complex pairs under several tangential laws (paper C, Fig. 12(a))",
-        ("variants",),
+        ("law_comparison",),
     ),
 }
 """Every figure. `rigidity` figures show the simulated step strain as well where a study has it;

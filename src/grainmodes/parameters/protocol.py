@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import Rattlers
-from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import Shear, StepStrain
@@ -19,7 +19,7 @@ class Protocol:
     compression: Compression = field(default_factory=Compression)
     step_strain: StepStrain = field(default_factory=StepStrain)
     shear: Shear = field(default_factory=Shear)
-    pairs: PairChoices = field(default_factory=PairChoices)
+    complex_pairs: PairChoices = field(default_factory=PairChoices)
     release: Release = field(default_factory=Release)
     rattlers: Rattlers = field(default_factory=Rattlers)
     spectrum: SpectrumChoices = field(default_factory=SpectrumChoices)

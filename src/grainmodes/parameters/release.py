@@ -9,19 +9,19 @@ from dataclasses import dataclass
 class Release:
     """Newtonian dynamics from a state with a complex pair λ' = (ω_r + iω_i)² (C, Sec. VI and VII).
 
-    It runs for `duration` / ω_i, looked at in `records` even intervals and in between where it
-    matters. `kick` is the root mean square velocity along ü^m at the start, in d/t_0; 0 leaves the
-    state to round-off. Each of `dampings`, η_0 in units of ω_i, is a run more beside the undamped
-    one. That one takes `least_time` t_0 at least: its plateau lasts some 1e5 t_0, however fast the
-    pair grew before, while a damped one has come to rest. `spectra` times of it the eigenvalues of
-    M⁻¹J are found. A state that takes more than `max_steps` is refused.
+    It runs for `duration` / ω_i, looked at in `n_records` even intervals and in between where it
+    matters. `initial_velocity` is the root mean square velocity along ü^m at the start, in d/t_0; 0
+    leaves the state to round-off. Each of `dampings`, η_0 in units of ω_i, is a run more beside the
+    undamped one. That one takes `min_time` t_0 at least: its plateau lasts some 1e5 t_0, however
+    fast the pair grew before, while a damped one has come to rest. At `spectra` times of it the
+    eigenvalues of M⁻¹J are found. A state that takes more than `max_steps` is refused.
     """
 
     time_step: float = 0.1
     duration: float = 80.0
-    least_time: float = 3e5
-    kick: float = 1e-11
+    min_time: float = 3e5
+    initial_velocity: float = 1e-11
     dampings: tuple[float, ...] = (0.1, 1.0, 3.0, 10.0, 100.0)
-    records: int = 2000
+    n_records: int = 2000
     spectra: int = 30
     max_steps: int = 50_000_000

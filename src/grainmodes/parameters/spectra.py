@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-SPECTRA = ("none", "counts", "bands", "eigenvalues", "modes")
-SPECTRUM_METHODS = ("auto", "dense", "windows", "counting")
+SPECTRA = ("none", "counts", "binned_averages", "eigenvalues", "modes")
+SPECTRUM_METHODS = ("auto", "dense", "slicing", "inertia_counts")
 
 DENSE_COUNTS_UP_TO = 2000
 """Degrees of freedom up to which LAPACK's eigenvalues are cheaper than counts at edges."""
 
 DENSE_MODES_UP_TO = 5000
-"""Degrees of freedom up to which LAPACK finds all modes faster than windows and bands do."""
+"""Degrees of freedom up to which LAPACK finds all modes faster than spectrum slicing does, and
+binned averages faster than inertia counts do."""
 
-BINNED = ("counts", "bands")
+BINNED = ("counts", "binned_averages")
 """Kinds of spectrum that hold bins rather than modes."""
 
 
@@ -21,13 +22,13 @@ BINNED = ("counts", "bands")
 class SpectrumChoices:
     """How a spectrum is computed; "auto" takes the cheapest method that delivers what is asked.
 
-    `fineness` is a factor on the numbers of A's linear bins. Of a bin with more modes than
+    `bin_density` is a factor on the numbers of A's linear bins. Of a bin with more modes than
     `modes_per_bin` the participation ratio is sampled on so many, and psi^R is counted in
-    `substeps` cells.
+    `cells_per_bin` cells.
     """
 
     method: str = "auto"
     factorisation: str = "auto"
-    fineness: float = 0.2
+    bin_density: float = 0.2
     modes_per_bin: int = 60
-    substeps: int = 2
+    cells_per_bin: int = 2

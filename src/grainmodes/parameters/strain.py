@@ -24,14 +24,14 @@ class StepStrain:
 class Shear:
     """Athermal quasistatic shear from 0 to `strain` in steps of `step` (B, Sec. II, App. B).
 
-    A step with an event is taken back and divided by ten, down to `smallest_step`. `newton` leaves
+    A step with an event is taken back and divided by ten, down to `min_step`. `newton` leaves
     to the damped dynamics, with `time_step` and `drag`, only what it cannot decide. The lowest
     eigenvalue of J is found on both sides of "events", or of all "states".
     """
 
     strain: float = 0.5
     step: float = 1e-4
-    smallest_step: float = 1e-8
+    min_step: float = 1e-8
     relaxation: str = "newton"
     loaded: bool = False
     force_tolerance: float = 1e-14

@@ -33,7 +33,7 @@ def seconds_per_seed(point: Point, kind: str, protocol: Protocol, table: Table) 
     """CPU seconds from random grains to G or, with a kind of spectrum, to D(ω)."""
     n, phi, kt = point
     climb = table.laws["trajectory"].seconds_at(n) * table.slowdown(protocol.compression)
-    packing = climb * table.share(phi) + table.laws["pack"].seconds_at(n)
+    packing = climb * table.share(phi) + table.laws["equilibrate"].seconds_at(n)
     stage = "rigidity" if kind == "none" else "spectrum"
     units = work(stage, kind, n, kt, protocol, table)
     return packing + sum(times * table.laws[name].seconds_at(n) for name, times in units.items())

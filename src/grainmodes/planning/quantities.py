@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from grainmodes.ensemble import fineness
+from grainmodes.ensemble import bin_density
 from grainmodes.ensemble.reading import variable
 from grainmodes.ensemble.spectra import shared_edges, spectrum
 from grainmodes.planning.seeds import LEAST, Need, needed
@@ -98,7 +98,7 @@ def _rigidity(of: xr.Dataset, target: float) -> list[Plan | Left]:
 def _density(ensemble: xr.Dataset, point: Point, target: float) -> list[Plan | Left]:
     """The median bin and the one that needs most, with the bins that hold too few modes."""
     modes = spectrum(ensemble, *point)
-    edges = shared_edges([modes], point[-1], fineness(ensemble))
+    edges = shared_edges([modes], point[-1], bin_density(ensemble))
     counts = modes.in_bins(edges).count
     filled = counts.sum(axis=0) >= FEW
     left = [Left(_few(edges, filled))] if not filled.all() else []
@@ -118,7 +118,7 @@ def _density(ensemble: xr.Dataset, point: Point, target: float) -> list[Plan | L
 def kind_of(modes) -> str:
     """The kind of spectrum that a pilot has, as a grid of a scene asks for it."""
     if isinstance(modes, Binned):
-        return "bands" if np.isfinite(modes.psi_rotational.total).any() else "counts"
+        return "binned_averages" if np.isfinite(modes.psi_rotational.total).any() else "counts"
     return "modes" if np.isfinite(modes.psi_rotational).any() else "eigenvalues"
 
 

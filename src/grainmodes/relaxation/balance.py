@@ -147,7 +147,7 @@ class Balance:
         Raises:
             FloppyError: the backbone has zero modes beyond the translations.
         """
-        symmetric = self.backbone_contacts.tangential_displacement is None
+        symmetric = self.backbone_contacts.spring_state is None
         return PinnedFactor(self.matrix, symmetric, reuse_ordering_of=self.like)
 
     @cached_property
@@ -227,6 +227,6 @@ def lost_force(packing: Packing, contacts: Contacts, interaction: Interaction) -
         return 0.0
     key = history.i.astype(np.int64) * packing.n + history.j
     gone = ~np.isin(key, contacts.i.astype(np.int64) * packing.n + contacts.j, assume_unique=True)
-    s = history.tangential_displacement[gone]
+    s = history.spring_state[gone]
     nothing = np.full(len(s), NOTHING)
     return float(np.abs(tangential_forces(interaction, nothing, s)).max(initial=0.0))

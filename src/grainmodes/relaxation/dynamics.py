@@ -123,7 +123,7 @@ def _springs(packing: Packing, pairs: Neighbours) -> np.ndarray:
     left, right = history.j[order], history.i[order].astype(np.uint32)
     first = np.searchsorted(left, np.arange(packing.n + 1))
     known = Neighbours(first, left.astype(np.uint32), right, np.zeros(len(left)))
-    return carried(known, history.tangential_displacement[order], pairs)
+    return carried(known, history.spring_state[order], pairs)
 
 
 def _history(pairs: Neighbours, spring: np.ndarray) -> History:

@@ -57,7 +57,7 @@ def _step(packing, contacts, interaction, force):
     """The Newton step, shortened until max|F̃| falls; None if it never does."""
     matrix = jacobian(packing, contacts, interaction)
     try:
-        u = PinnedFactor(matrix, contacts.tangential_displacement is None).solve(force)
+        u = PinnedFactor(matrix, contacts.spring_state is None).solve(force)
     except FloppyError:
         return None
     u = u.reshape(packing.n, -1)
@@ -92,4 +92,4 @@ def slipped(packing: Packing, interaction: Interaction) -> tuple[Packing, Contac
         return packing, contacts
     s = kept_displacement(interaction, contacts.overlap, contacts.displacement)
     history = History(contacts.i, contacts.j, s)
-    return replace(packing, history=history), replace(contacts, tangential_displacement=s)
+    return replace(packing, history=history), replace(contacts, spring_state=s)

@@ -77,7 +77,7 @@ def rigidity(packing: Packing, interaction: Interaction, threshold: int = 2) -> 
     contacts = find_contacts(rigid)
     loaded = AffineStep(rigid, contacts, interaction, loaded=True)
     matrix = assemble(loaded.stiffness, contacts.i, contacts.j, rigid.n)
-    factor = PinnedFactor(matrix, symmetric=contacts.tangential_displacement is None)
+    factor = PinnedFactor(matrix, symmetric=contacts.spring_state is None)
     response = loaded.moduli(factor.solve(loaded.force))
     if is_frictionless(interaction):
         return Rigidity(response, response)

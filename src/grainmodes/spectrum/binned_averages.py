@@ -73,7 +73,7 @@ def band_averages(
     shift = problem.shift(choices.factorisation)
     below = counts(shift, edges)
     count = np.diff(below)
-    given = {"method": "counting", "factorisation": shift.backend}
+    given = {"method": "inertia_counts", "factorisation": shift.backend}
     if averages:
         given |= _averages(shift, problem, edges, below, choices)
     return Bands(edges, count, int(below[0]), problem.size, **given)
@@ -101,7 +101,7 @@ def _weight(problem: Problem, vectors: np.ndarray) -> np.ndarray:
 
 def _averages(shift, problem: Problem, edges, below, choices: SpectrumChoices) -> dict:
     count = np.diff(below)
-    psi = _mean(rotational_sums(shift, below, edges, problem.k, choices.substeps), count)
+    psi = _mean(rotational_sums(shift, below, edges, problem.k, choices.cells_per_bin), count)
     p = np.full((2, len(count)), np.nan)
     for number in np.flatnonzero(count):
         low, high = edges[number : number + 2] ** 2

@@ -59,7 +59,7 @@ def full_spectrum(
 
     Args:
         forces: (M, F) to project the modes on.
-        choices: method ("auto", "dense", "windows") and factorisation.
+        choices: method ("auto", "dense", "slicing") and factorisation.
         processes: processes that share the windows; the numbers do not depend on it.
 
     Raises:
@@ -68,7 +68,7 @@ def full_spectrum(
         numpy.linalg.LinAlgError: LAPACK did not converge.
     """
     forces = np.zeros((problem.size, 0)) if forces is None else forces
-    if _method(problem, choices.method) == "windows":
+    if _method(problem, choices.method) == "slicing":
         return _by_windows(problem, forces, choices.factorisation, processes)
     if not modes:
         return Spectrum(dense.eigenvalues(problem))
@@ -78,11 +78,11 @@ def full_spectrum(
 
 
 def _method(problem: Problem, asked: str) -> str:
-    if asked == "windows" and not problem.symmetric:
+    if asked == "slicing" and not problem.symmetric:
         raise ValueError("method: expected dense for a Jacobian that is not symmetric, got windows")
-    if asked in ("dense", "windows"):
+    if asked in ("dense", "slicing"):
         return asked
-    return "windows" if problem.symmetric and problem.size > DENSE_MODES_UP_TO else "dense"
+    return "slicing" if problem.symmetric and problem.size > DENSE_MODES_UP_TO else "dense"
 
 
 def _spectrum(measured: Measured, **more) -> Spectrum:
@@ -99,7 +99,7 @@ def _by_windows(problem: Problem, forces, backend: str, processes: int) -> Spect
         below_zero = _window_by_window(turned, turned.shift(backend), forces, processes)
         found = [part.turned() for part in reversed(below_zero)] + found
     found += _window_by_window(problem, shift, forces, processes)
-    return _spectrum(Measured.joined(found), method="windows", factorisation=shift.backend)
+    return _spectrum(Measured.joined(found), method="slicing", factorisation=shift.backend)
 
 
 def floor(problem: Problem) -> float:

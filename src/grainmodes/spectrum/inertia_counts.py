@@ -41,7 +41,7 @@ def counts(shift: SymmetricShift, frequency: np.ndarray) -> np.ndarray:
 
 
 def rotational_sums(
-    shift: SymmetricShift, below: np.ndarray, edges: np.ndarray, k: int, substeps: int
+    shift: SymmetricShift, below: np.ndarray, edges: np.ndarray, k: int, cells_per_bin: int
 ) -> Sums:
     """Σ ψ^R of the modes in each bin, by counts in two shifts.
 
@@ -49,24 +49,24 @@ def rotational_sums(
         shift: of a J with k degrees of freedom a grain, the third its rotation.
         below: (B + 1,) `counts` at the edges.
         edges: (B + 1,) ω of the bins, 1/t_0, ascending.
-        substeps: cells of a bin, at least 1.
+        cells_per_bin: cells of a bin, at least 1.
     """
     if k < 3:
         return Sums(np.zeros(len(edges) - 1), np.zeros(len(edges) - 1))
-    nodes = _subdivided(edges**2, substeps)
-    diagonal = np.repeat(below, substeps)[: len(nodes)]
+    nodes = _subdivided(edges**2, cells_per_bin)
+    diagonal = np.repeat(below, cells_per_bin)[: len(nodes)]
     for place in range(len(nodes)):
-        if place % substeps:
+        if place % cells_per_bin:
             diagonal[place] = shift.factor_at(nodes[place]).n_below
     rotation = np.arange(shift.size) % k == 2
     single = _cells(shift, nodes, diagonal, rotation)
     joined = _cells(shift, nodes[::2], diagonal[::2], rotation)
-    return _summed(single, joined, np.diff(diagonal), substeps)
+    return _summed(single, joined, np.diff(diagonal), cells_per_bin)
 
 
-def _subdivided(edges: np.ndarray, substeps: int) -> np.ndarray:
-    """Each interval of `edges` in `substeps` equal parts."""
-    part = np.arange(substeps) / substeps
+def _subdivided(edges: np.ndarray, cells_per_bin: int) -> np.ndarray:
+    """Each interval of `edges` in `cells_per_bin` equal parts."""
+    part = np.arange(cells_per_bin) / cells_per_bin
     inner = edges[:-1, None] + part * np.diff(edges)[:, None]
     return np.append(inner.ravel(), edges[-1])
 
@@ -82,7 +82,7 @@ def _cells(shift: SymmetricShift, nodes, diagonal, rotation) -> np.ndarray:
     return total
 
 
-def _summed(single, joined, modes, substeps: int) -> Sums:
+def _summed(single, joined, modes, cells_per_bin: int) -> Sums:
     """Cells gathered into bins, with the errors of chance and of step."""
     part = (single + 0.5) / (modes + 1.0)
     smaller = np.minimum(part, 1.0 - part)
@@ -93,6 +93,6 @@ def _summed(single, joined, modes, substeps: int) -> Sums:
     bias[: 2 * pairs] = np.repeat(0.5 * step, 2)
     if len(single) > 2 * pairs > 0:
         bias[-1] = bias[-2]
-    bins = (-1, substeps)
+    bins = (-1, cells_per_bin)
     error = np.sqrt(chance.reshape(bins).sum(axis=1) + bias.reshape(bins).sum(axis=1) ** 2)
     return Sums(single.reshape(bins).sum(axis=1), error)

@@ -53,4 +53,4 @@ def problem(
     contacts = find_contacts(grains)
     matrix = jacobian(grains, contacts, interaction)
     k = matrix.shape[0] // max(grains.n, 1) if grains.n else 3
-    return Problem(matrix, k, symmetric=contacts.tangential_displacement is None)
+    return Problem(matrix, k, symmetric=contacts.spring_state is None)

@@ -1,4 +1,4 @@
-"""Numbers that single claims of paper A need, a row per packing and k_T: stage `probes`.
+"""Numbers that single claims of paper A need, a row per packing and k_T: stage `claim_diagnostics`.
 
 | claim                                        | probe                                  |
 | -------------------------------------------- | -------------------------------------- |
@@ -64,7 +64,7 @@ class Attempts:
             return instead
 
 
-def probes_block(packings: Block, law: ContactLaw, protocol: Protocol) -> Block:
+def claim_diagnostics_block(packings: Block, law: ContactLaw, protocol: Protocol) -> Block:
     """Every probe of every packing; a packing without balance is a row without numbers."""
     sentences: dict[str, str] = {}
 
@@ -74,11 +74,11 @@ def probes_block(packings: Block, law: ContactLaw, protocol: Protocol) -> Block:
         probed = probes(packing, law, protocol, attempt) if jammed else unjammed(packing, law)
         if attempt.sentences:
             sentences[str(seed_of(packings, number))] = "; ".join(attempt.sentences)
-        return {"probe_strain": STRAINS, "converged": True} | probed
+        return {"diagnostic_strain": STRAINS, "converged": True} | probed
 
     parts = {"rattlers": protocol.rattlers, "step_strain": protocol.step_strain}
     config = {"law": asdict(law)} | {name: asdict(part) for name, part in parts.items()}
-    block = response_block(packings, "probes", config, law, sample)
+    block = response_block(packings, "claim_diagnostics", config, law, sample)
     failures = block.attributes["failures"] | sentences
     return Block(block.variables, block.attributes | {"failures": failures})
 

@@ -1,4 +1,4 @@
-"""The stage `close_up`: the first event of one sample looked at closely: B, Figs. 3-6 and 10-13.
+"""The stage `event_detail`: the first event of one sample in detail: B, Figs. 3-6 and 10-13.
 
 The closest bracket, Δγ_Th = 1e-6 Δγ_in, gives the event whose states and fields are kept. A sample
 without an event up to the last strain has `event_count` = 0 and none of these.
@@ -34,8 +34,8 @@ from grainmodes.stages.samples import first_sample, jammed_packing
 SIDES = ("before", "after")
 
 
-def close_up_block(packings: Block, law: ContactLaw, choices: Shear) -> Block:
-    """The first event of the first sample of a block; `choices.smallest_step` is not used."""
+def event_detail_block(packings: Block, law: ContactLaw, choices: Shear) -> Block:
+    """The first event of the first sample of a block; `choices.min_step` is not used."""
     rule = interaction(law)
 
     def sample(number: int) -> dict[str, object]:
@@ -49,9 +49,9 @@ def close_up_block(packings: Block, law: ContactLaw, choices: Shear) -> Block:
             return row | _grains(packing)
         return row | _event(closest, closer(choices)[-1])
 
-    shear = {name: value for name, value in asdict(choices).items() if name != "smallest_step"}
+    shear = {name: value for name, value in asdict(choices).items() if name != "min_step"}
     config = {"law": asdict(law), "shear": shear, "rate": RATE_STEP, "slope": SLOPE_STEP}
-    return response_block(first_sample(packings), "close_up", config, law, sample)
+    return response_block(first_sample(packings), "event_detail", config, law, sample)
 
 
 def _grains(packing: Packing) -> dict[str, object]:

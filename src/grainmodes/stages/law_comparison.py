@@ -1,4 +1,4 @@
-"""The stage `variants`: every packing of a block under every tangential law, side by side.
+"""The stage `law_comparison`: every packing of a block under every tangential law, side by side.
 
 The laws share the normal law, k_T and μ of the scene; those without slip have no use for μ. They
 see the same states of strain, of which one that a law did not reach is NaN there.
@@ -14,26 +14,26 @@ from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ELASTIC_LAWS, TANGENTIAL_LAWS, ContactLaw
+from grainmodes.parameters.law_comparison import MAX_GRAINS
 from grainmodes.parameters.strain import Shear
-from grainmodes.parameters.variants import MOST_GRAINS
 from grainmodes.protocols.law_comparison.comparison import Seen, Variant, variant
 from grainmodes.stages.rows import response_block
 from grainmodes.stages.samples import jammed_packing
 
 
-def variants_block(packings: Block, law: ContactLaw, choices: Shear) -> Block:
+def law_comparison_block(packings: Block, law: ContactLaw, choices: Shear) -> Block:
     """Pairs, rates and growth of every packing under every law."""
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, interaction(law))
         if not jammed:
-            return {"variant_count": 0, "jammed": False, "converged": True}
-        if packing.n > MOST_GRAINS:
-            raise ValueError(f"expected at most {MOST_GRAINS} grains, got {packing.n}")
+            return {"comparison_count": 0, "jammed": False, "converged": True}
+        if packing.n > MAX_GRAINS:
+            raise ValueError(f"expected at most {MAX_GRAINS} grains, got {packing.n}")
         return row_of(variants(packing, law, choices))
 
     config = {"law": asdict(law), "shear": asdict(choices)}
-    return response_block(packings, "variants", config, law, sample)
+    return response_block(packings, "law_comparison", config, law, sample)
 
 
 def variants(packing: Packing, law: ContactLaw, choices: Shear) -> dict[str, Variant]:
@@ -51,13 +51,13 @@ def _with(law: ContactLaw, tangential: str) -> ContactLaw:
 def row_of(found: dict[str, Variant]) -> dict[str, object]:
     """All that was seen; not converged where a law ended before the last strain."""
     longest = max(found.values(), key=lambda of: len(of.seen))
-    row: dict[str, object] = {"variant_count": len(longest.seen)}
-    row["variant_strain"] = [seen.strain for seen in longest.seen]
+    row: dict[str, object] = {"comparison_count": len(longest.seen)}
+    row["comparison_strain"] = [seen.strain for seen in longest.seen]
     for name, of in found.items():
         for number in Seen._fields[1:]:
             column = np.full(len(longest.seen), np.nan)
             column[: len(of.seen)] = [getattr(seen, number) for seen in of.seen]
-            row[f"variant_{number}_{name}"] = column
+            row[f"comparison_{number}_{name}"] = column
     endings = [f"{name}: {of.ending}" for name, of in found.items() if of.ending]
     row |= {"jammed": True, "converged": not endings}
     return row | ({"failure": "; ".join(endings)} if endings else {})

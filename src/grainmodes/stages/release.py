@@ -69,7 +69,7 @@ def unstable_of(block: Block, number: int) -> Unstable:
     """The unstable state in a row."""
     row = {name: array[number] for name, array in block.variables.items()}
     held = row["unstable_contact_i"] >= 0
-    names = ("unstable_contact_i", "unstable_contact_j", "unstable_slip")
+    names = ("unstable_contact_i", "unstable_contact_j", "unstable_spring_state")
     packing = Packing(
         np.ascontiguousarray(row["unstable_fraction"].T),
         row["diameter"],

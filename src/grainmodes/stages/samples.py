@@ -145,10 +145,10 @@ def packing_of(block: Block, number: int) -> Packing:
 
 def _history(row: dict[str, np.ndarray]) -> History | None:
     """The loaded springs of a row, if it has any."""
-    if "tangential_displacement" not in row:
+    if "spring_state" not in row:
         return None
     held = row["contact_i"] >= 0
-    names = ("contact_i", "contact_j", "tangential_displacement")
+    names = ("contact_i", "contact_j", "spring_state")
     return History.of(*(row[name][held] for name in names))
 
 

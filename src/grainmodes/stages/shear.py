@@ -46,12 +46,12 @@ def shear_block(
     packings: Block,
     law: ContactLaw,
     choices: Shear,
-    unbracketed: bool = False,
+    coarse_run: bool = False,
     keeper: Keeper | None = None,
 ) -> Block:
     """The stress-strain curve of every packing.
 
-    `unbracketed`: once more without brackets, and the first event in brackets of every width.
+    `coarse_run`: once more without brackets, and the first event in brackets of every width.
     """
     rule = interaction(law)
 
@@ -62,13 +62,13 @@ def shear_block(
             return {"curve_count": 0, "jammed": False, "converged": True}
         walk = walked(packing, rule, choices, keeper, f"seed-{seed}")
         row = row_of(walk) | ({} if walk.done else {"failure": walk.ending})
-        if unbracketed:
-            coarse = replace(choices, smallest_step=choices.step)
-            row |= _unbracketed(walked(packing, rule, coarse, keeper, f"seed-{seed}-unbracketed"))
+        if coarse_run:
+            coarse = replace(choices, min_step=choices.step)
+            row |= _unbracketed(walked(packing, rule, coarse, keeper, f"seed-{seed}-coarse_run"))
             row |= bracket_ends(brackets(packing, rule, choices))
         return row
 
-    config = {"law": asdict(law), "shear": asdict(choices), "unbracketed": unbracketed}
+    config = {"law": asdict(law), "shear": asdict(choices), "coarse_run": coarse_run}
     return response_block(packings, "shear", config, law, sample)
 
 
@@ -86,8 +86,8 @@ def walked(
 def _unbracketed(walk: Walk) -> dict[str, object]:
     """The stress of a walk whose events are not bracketed."""
     return {
-        "unbracketed_strain": [p.strain for p in walk.curve],
-        "unbracketed_stress": [(p.stress[0, 1] + p.stress[1, 0]) / 2.0 for p in walk.curve],
+        "coarse_strain": [p.strain for p in walk.curve],
+        "coarse_stress": [(p.stress[0, 1] + p.stress[1, 0]) / 2.0 for p in walk.curve],
     }
 
 
@@ -135,7 +135,7 @@ def _events(events: list[Event], rule: Interaction) -> dict[str, object]:
     }
     row["event_displacement"] = np.stack([_three(e.displacement) for e in events])
     poles = [rotational_poles(e.after, e.displacement) for e in events]
-    row["event_quadrupole"], row["event_other_poles"] = zip(*poles, strict=True)
+    row["event_quadrupole"], row["event_other_multipoles"] = zip(*poles, strict=True)
     row["event_reopened"] = [reopened(e.before, e.after, rule) for e in events]
     for number, side in enumerate(("before", "after")):
         balances = [Balance.of(getattr(e, side), rule) for e in events]
@@ -175,7 +175,7 @@ def _side(side: str, balances: list[Balance], points: list[Point]) -> dict[str, 
             "rotation": np.stack([packing.rotation for packing in packings]),
             "contact_i": _even((h.i for h in histories), -1),
             "contact_j": _even((h.j for h in histories), -1),
-            "slip": _even((h.tangential_displacement for h in histories), np.nan),
+            "slip": _even((h.spring_state for h in histories), np.nan),
         }
     return {f"event_{name}_{side}": values for name, values in row.items()}
 

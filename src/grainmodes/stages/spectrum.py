@@ -3,7 +3,7 @@
 | kind        | holds                                                              |
 | ----------- | ------------------------------------------------------------------ |
 | counts      | number of modes in bins of ω                                       |
-| bands       | the same, with ψ^R and p averaged over each bin, and their errors  |
+| binned_averages | the same, with ψ^R and p averaged over each bin, and their errors  |
 | eigenvalues | every eigenvalue                                                   |
 | modes       | every eigenvalue with ψ^R and p, and g as a sum over the modes     |
 
@@ -41,7 +41,7 @@ def spectrum_block(
 ) -> Block:
     """The spectrum of every packing without its rattlers; `processes` share its windows."""
     rule, threshold = interaction(law), rattlers.largest(law)
-    edges = fixed_edges(law.kt, choices.fineness)
+    edges = fixed_edges(law.kt, choices.bin_density)
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, rule)
@@ -49,7 +49,7 @@ def spectrum_block(
             return _nothing(kind, edges, _columns(packing, law))
         of = problem(packing, rule, threshold)
         if kind in BINNED:
-            return _bins(band_averages(of, edges, kind == "bands", choices), kind)
+            return _bins(band_averages(of, edges, kind == "binned_averages", choices), kind)
         if kind == "eigenvalues" or not of.symmetric:
             found = full_spectrum(of, kind == "modes", None, choices, processes)
             return _modes(found, _columns(packing, law), kind)
@@ -87,7 +87,7 @@ def hessian_block(
 ) -> Block:
     """Modes of the effective Hessian in bins, tangent stiffnesses and printed ones: A, (H4)."""
     rule, threshold = interaction(law), rattlers.largest(law)
-    edges = fixed_edges(law.kt, choices.fineness)
+    edges = fixed_edges(law.kt, choices.bin_density)
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, rule)
@@ -145,7 +145,7 @@ def _bins(found: Bands, kind: str) -> dict[str, object]:
         "modes_below": found.below,
         "mode_count": found.modes,
     }
-    if kind == "bands":
+    if kind == "binned_averages":
         for name in ("psi_rotational", "participation_ratio"):
             row[f"bin_{name}"] = getattr(found, name)
             row[f"bin_{name}_error"] = getattr(found, f"{name}_error")

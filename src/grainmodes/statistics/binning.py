@@ -61,13 +61,13 @@ class Binned(NamedTuple):
         return self
 
 
-def bin_edges(kappa: float, lowest: float, highest: float, fineness: float = 1.0) -> np.ndarray:
+def bin_edges(kappa: float, lowest: float, highest: float, bin_density: float = 1.0) -> np.ndarray:
     """Edges of A's bins over the range of the data.
 
     Args:
         kappa: k_T / k_N; 0 has no rotational window.
         lowest, highest: 1/t_0, 0 < lowest < highest, the range of the data.
-        fineness: factor on the numbers 500 and 100, for ensembles of fewer modes than A's.
+        bin_density: factor on the numbers 500 and 100, for ensembles of fewer modes than A's.
 
     Returns:
         (B + 1,) ascending; the first is `lowest`, the last `highest`.
@@ -78,15 +78,15 @@ def bin_edges(kappa: float, lowest: float, highest: float, fineness: float = 1.0
     if not 0.0 < lowest < highest:
         raise ValueError(f"bins from {lowest} to {highest}: expected 0 < lowest < highest")
     edges = np.geomspace(lowest, highest, LOGARITHMIC_BINS + 1)
-    edges = _redivided(edges, edges[-1 - HIGHEST_BINS], highest, fineness * HIGHEST_DIVISIONS)
+    edges = _redivided(edges, edges[-1 - HIGHEST_BINS], highest, bin_density * HIGHEST_DIVISIONS)
     start, stop = np.sqrt(kappa) * np.array(ROTATIONAL_WINDOW)
     start, stop = max(start, lowest), min(stop, highest)
     if start < stop:
-        edges = _redivided(edges, start, stop, fineness * ROTATIONAL_DIVISIONS)
+        edges = _redivided(edges, start, stop, bin_density * ROTATIONAL_DIVISIONS)
     return edges
 
 
-def fixed_edges(kappa: float, fineness: float) -> np.ndarray:
+def fixed_edges(kappa: float, bin_density: float) -> np.ndarray:
     """A's bins over a range that depends on the point alone, for spectra that are only counted.
 
     From 0.01 omega_R, at most 1e-3 and at least the lowest safe edge 1e-7, to beyond the stiffest
@@ -96,7 +96,7 @@ def fixed_edges(kappa: float, fineness: float) -> np.ndarray:
         (B + 1,) 1/t_0, ascending.
     """
     lowest = np.clip(LOWEST * np.sqrt(kappa), SAFE, 1e-3) if kappa > 0.0 else 1e-3
-    return bin_edges(kappa, lowest, STIFFEST * np.sqrt(1.0 + kappa), fineness)
+    return bin_edges(kappa, lowest, STIFFEST * np.sqrt(1.0 + kappa), bin_density)
 
 
 def _redivided(edges: np.ndarray, start: float, stop: float, divisions: float) -> np.ndarray:

@@ -20,15 +20,15 @@ def no_pairs(ensemble):
 
 
 def linear(ensemble):
-    ensemble["located_exponent_real"] = 2.0 * ensemble["located_exponent_real"]
+    ensemble["exceptional_point_exponent_real"] = 2.0 * ensemble["exceptional_point_exponent_real"]
 
 
 def linear_as_a_pair(ensemble):
-    ensemble["located_exponent_pair"] = 2.0 * ensemble["located_exponent_pair"]
+    ensemble["exceptional_point_exponent_pair"] = 2.0 * ensemble["exceptional_point_exponent_pair"]
 
 
 def not_parallel(ensemble):
-    ensemble["exceptional_product"] = 0.9 * ensemble["exceptional_product"]
+    ensemble["neighbour_product"] = 0.9 * ensemble["neighbour_product"]
 
 
 MUTANTS = [
@@ -62,8 +62,8 @@ def test_one_changed_number_contradicts_its_claim_alone(name, mutate):
 def test_the_product_is_taken_to_the_point_itself():
     """At the nearest states it is 1 − 1e-2; a straight line takes it to 1."""
     ensemble = claim_fixtures_pairs.ensemble()
-    steeper = 1.0 - 1e4 * (1.0 - ensemble["exceptional_product"])
-    ensemble["exceptional_product"] = steeper
+    steeper = 1.0 - 1e4 * (1.0 - ensemble["neighbour_product"])
+    ensemble["neighbour_product"] = steeper
     assert verdicts(ensemble)["C3"].verdict == HOLDS
 
 
@@ -71,12 +71,12 @@ def test_what_the_ensemble_lacks_is_not_asked_and_named():
     found = verdicts(claim_fixtures.ensemble())
     assert {found[name].verdict for name in NAMES} == {NOT_ASKED}
     assert "pair_count" in found["C1"].explanation
-    assert "located_kind" in found["C2"].explanation
+    assert "exceptional_point_kind" in found["C2"].explanation
 
 
 def test_other_kinds_than_coalescences_are_left_out():
     ensemble = claim_fixtures_pairs.ensemble()
-    for name in ("located_kind", "located_exponent_real"):
+    for name in ("exceptional_point_kind", "exceptional_point_exponent_real"):
         ensemble[name][..., 0] = np.nan if "exponent" in name else 2.0
     found = verdicts(ensemble)["C2"]
     assert found.verdict == HOLDS

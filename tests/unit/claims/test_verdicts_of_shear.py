@@ -14,10 +14,10 @@ from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED, NOT_RESOLVED
 NAMES = [f"B{number}" for number in range(1, 11)]
 NEEDED = {
     "B1": "curve_strain",
-    "B2": "unbracketed_strain",
+    "B2": "coarse_strain",
     "B3": "curve_lowest_eigenvalue",
     "B4": "curve_g_xy",
-    "B5": "bracket_smallest_step",
+    "B5": "bracket_min_step",
     "B6": "event_asymmetry_after",
     "B7": "event_quadrupole",
     "B8": "curve_g_xy",

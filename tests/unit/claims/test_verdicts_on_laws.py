@@ -8,9 +8,9 @@ import pytest
 import claim_fixtures_laws
 from grainmodes.claims import CLAIMS, check
 from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED
-from grainmodes.claims.paper_c import variants
+from grainmodes.claims.paper_c import laws
 
-OWN = (variants.smoothed_is_unstable, variants.sharp_is_stable)
+OWN = (laws.smoothed_is_unstable, laws.sharp_is_stable)
 
 
 def verdicts(ensemble, claims=OWN):
@@ -18,21 +18,21 @@ def verdicts(ensemble, claims=OWN):
 
 
 def never_born(ensemble):
-    ensemble["variant_pairs_slipping_smoothed_coulomb"] *= 0.0
+    ensemble["comparison_pairs_slipping_smoothed_coulomb"] *= 0.0
 
 
 def slower(ensemble):
-    ensemble["variant_growth_smoothed_coulomb"] *= 0.5
+    ensemble["comparison_growth_smoothed_coulomb"] *= 0.5
 
 
 def held_springs_oscillate(ensemble):
-    sharp = ensemble["variant_pairs_slipping_sharp_coulomb"]
-    ensemble["variant_pairs_sticking_sharp_coulomb"] = sharp.copy()
+    sharp = ensemble["comparison_pairs_slipping_sharp_coulomb"]
+    ensemble["comparison_pairs_sticking_sharp_coulomb"] = sharp.copy()
 
 
 def sharp_grows(ensemble):
-    sharp = ensemble["variant_rate_sharp_coulomb"]
-    ensemble["variant_growth_sharp_coulomb"] = 0.5 * sharp.where(sharp > 0.0)
+    sharp = ensemble["comparison_rate_sharp_coulomb"]
+    ensemble["comparison_growth_sharp_coulomb"] = 0.5 * sharp.where(sharp > 0.0)
 
 
 def test_both_hold_and_name_their_numbers():
@@ -63,9 +63,9 @@ def test_one_changed_number_contradicts_its_claim_alone(name, mutate):
 
 def test_one_state_that_grows_is_told_before_it_decides():
     ensemble = claim_fixtures_laws.ensemble()
-    growth = ensemble["variant_growth_sharp_coulomb"].to_numpy()
+    growth = ensemble["comparison_growth_sharp_coulomb"].to_numpy()
     growth[..., 0, 1] = 0.4 * claim_fixtures_laws.RATE
-    ensemble["variant_growth_sharp_coulomb"].values = growth
+    ensemble["comparison_growth_sharp_coulomb"].values = growth
     verdict = verdicts(ensemble)["C9"]
     assert verdict.verdict != HOLDS
     assert "of 30 released ones 1 grow" in verdict.explanation
@@ -73,7 +73,7 @@ def test_one_state_that_grows_is_told_before_it_decides():
 
 def test_hertzian_grains_and_other_observables_are_not_asked():
     ensemble = claim_fixtures_laws.ensemble()
-    without = ensemble.drop_vars("variant_pairs_slipping_sharp_coulomb")
+    without = ensemble.drop_vars("comparison_pairs_slipping_sharp_coulomb")
     assert verdicts(without)["C9"].verdict == NOT_ASKED
     assert verdicts(without)["C8"].verdict == HOLDS
     ensemble.attrs["config"] = json.dumps({})
@@ -83,7 +83,7 @@ def test_hertzian_grains_and_other_observables_are_not_asked():
 def test_a_sharp_law_without_slip_is_judged_by_its_springs_alone():
     ensemble = claim_fixtures_laws.ensemble()
     for name, value in (("pairs_slipping", 0.0), ("rate", 0.0), ("growth", np.nan)):
-        ensemble[f"variant_{name}_sharp_coulomb"] *= value
+        ensemble[f"comparison_{name}_sharp_coulomb"] *= value
     verdict = verdicts(ensemble)["C9"]
     assert verdict.verdict == HOLDS
     assert verdict.where.startswith("sticking")

@@ -22,7 +22,7 @@ def study(tmp_path_factory):
     folder = tmp_path_factory.mktemp("study")
     start = ["compress", "--n", "16", "--phi", "0.9", "--seeds", "0-1", "--settings", COARSE]
     assert main([*start, "-o", str(folder / "checkpoint.nc")]) == 0
-    pack = ["pack", str(folder / "checkpoint.nc"), "--phi", "0.9", "--settings", COARSE]
+    pack = ["equilibrate", str(folder / "checkpoint.nc"), "--phi", "0.9", "--settings", COARSE]
     assert main([*pack, "-o", str(folder / "packings.nc")]) == 0
     return folder
 
@@ -40,7 +40,7 @@ def loaded_by(*words: str) -> set[str]:
     return {name for name in HEAVY if name in run.stderr.split()}
 
 
-@pytest.mark.parametrize("words", [["--help"], ["point", "--help"], ["--version"], ["pack"]])
+@pytest.mark.parametrize("words", [["--help"], ["point", "--help"], ["--version"], ["equilibrate"]])
 def test_help_is_light(words):
     assert loaded_by(*words) == set()
 
@@ -54,7 +54,15 @@ def test_help_names_every_command(capsys):
         main(["--help"])
     assert stop.value.code == 0
     text = capsys.readouterr().out
-    commands = ("compress", "pack", "rigidity", "step-strain", "spectrum", "fields", "probes")
+    commands = (
+        "compress",
+        "equilibrate",
+        "rigidity",
+        "step-strain",
+        "spectrum",
+        "fields",
+        "claim_diagnostics",
+    )
     for name in (*commands, "gather", "cost", "claims"):
         assert f"    {name}" in text
 
@@ -64,17 +72,20 @@ def test_help_names_every_command(capsys):
     [
         ([], "required: COMMAND"),
         (["melt"], "invalid choice: 'melt'"),
-        (["pack"], "required: start, --phi, -o"),
+        (["equilibrate"], "required: start, --phi, -o"),
         (["point", *SMALL, "--kt", "1", "--seed", "x", "-o", "p.nc"], "expected first-last"),
         (["point", *SMALL, "--kt", "1", "--seed", "3-1", "-o", "p.nc"], "expected first-last"),
-        (["pack", "x.nc", "--phi", "0.9", "--settings", "{", "-o", "p"], "expected JSON, got '{'"),
         (
-            ["pack", "x.nc", "--phi", "0.9", "--settings", "[]", "-o", "p"],
+            ["equilibrate", "x.nc", "--phi", "0.9", "--settings", "{", "-o", "p"],
+            "expected JSON, got '{'",
+        ),
+        (
+            ["equilibrate", "x.nc", "--phi", "0.9", "--settings", "[]", "-o", "p"],
             "expected a JSON object such as {}, got '[]'",
         ),
         (["figure", "g_psi", "x.nc", "-o", "g"], "invalid choice: 'g_psi'"),
         (
-            ["shear", "x.nc", "--kt", "1", "--keep-every", "0", "-o", "s"],
+            ["shear", "x.nc", "--kt", "1", "--checkpoint-every", "0", "-o", "s"],
             "expected a number of seconds above 0, got '0'",
         ),
     ],
@@ -145,8 +156,8 @@ def test_a_truncated_file_is_refused(capsys, tmp_path, study, command):
             ["rigidity", "checkpoint.nc", "--kt", "1"],
             "expected packings, got trajectories",
         ),
-        (["pack", "packings.nc", "--phi", "0.9"], "expected trajectories, got packings"),
-        (["pack", "checkpoint.nc", "--phi", "0.9"], "belong to another compression"),
+        (["equilibrate", "packings.nc", "--phi", "0.9"], "expected trajectories, got packings"),
+        (["equilibrate", "checkpoint.nc", "--phi", "0.9"], "belong to another compression"),
     ],
 )
 def test_a_file_of_another_stage_is_refused(capsys, tmp_path, study, words, sentence):
@@ -214,7 +225,8 @@ def test_a_spectrum_of_nothing_is_refused(capsys, tmp_path, study):
     words = ["spectrum", str(study / "packings.nc"), "--kt", "1", *settings]
     assert main([*words, "-o", str(tmp_path / "s.nc")]) == 1
     assert (
-        "expected one of counts, bands, eigenvalues, modes, got 'none'" in capsys.readouterr().err
+        "expected one of counts, binned_averages, eigenvalues, modes, got 'none'"
+        in capsys.readouterr().err
     )
 
 

@@ -23,7 +23,7 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.quasistatic import first_balance, step_to
 
-CHOICES = Shear(step=1e-3, smallest_step=1e-3, force_tolerance=5e-14)
+CHOICES = Shear(step=1e-3, min_step=1e-3, force_tolerance=5e-14)
 
 
 def sheared(coefficient: float) -> sparse.csr_array:

@@ -22,7 +22,9 @@ def test_figures_follow_the_observables():
     nothing = {"spectrum": "none"}
     assert scene_with("grid.observables", nothing).figures == ("g_phi", "g_kt", "g_nonaffine")
     assert "participation" not in scene_with("grid.observables", {"spectrum": "counts"}).figures
-    assert "participation" in scene_with("grid.observables", {"spectrum": "bands"}).figures
+    assert (
+        "participation" in scene_with("grid.observables", {"spectrum": "binned_averages"}).figures
+    )
     config = {"study": "s", "grids": [GRID | {"observables": nothing}], "figures": ["dos"]}
     with pytest.raises(ConfigurationError, match=r"'dos' needs observables\.spectrum"):
         scene_of(config)

@@ -31,15 +31,15 @@ def test_a_point_gets_what_its_grid_asks_for():
     assert stages_with(step_strain=False) == ["rigidity", "spectrum"]
     assert stages_with(rigidity=False, spectrum="counts") == ["step_strain", "spectrum"]
     assert stages_with(step_strain=False, spectrum="none", fields=True) == ["rigidity"]
-    assert stages_with(rattlers=True, hessian=True, probes=True) == [
+    assert stages_with(rattlers=True, hessian=True, claim_diagnostics=True) == [
         *("rigidity", "step_strain", "spectrum"),
-        *("spectrum_rattlers", "spectrum_hessian", "probes"),
+        *("spectrum_rattlers", "spectrum_hessian", "claim_diagnostics"),
     ]
 
 
 def test_grids_have_their_own_observables_and_seeds():
     first = ONLY_G | {"seeds": 8}
-    scene = scene_of_grids(first, WITH_RATTLERS | {"phi": [0.85], "kt": [1.0]}, block=4)
+    scene = scene_of_grids(first, WITH_RATTLERS | {"phi": [0.85], "kt": [1.0]}, seeds_per_job=4)
     assert scene.responses(16, 0.9, 1.0) == ["rigidity", "step_strain"]
     assert scene.responses(16, 0.85, 1.0)[2:] == ["spectrum", "spectrum_rattlers"]
     assert scene.blocks_of(16, 0.85, 1.0) == ["0000-0003"]
@@ -56,7 +56,11 @@ def test_kinds_of_spectra_belong_to_grids():
 
 
 def test_without_rotation_there_is_no_other_hessian():
-    asked = {"hessian": True, "probes": True, "rattlers": True}
+    asked = {"hessian": True, "claim_diagnostics": True, "rattlers": True}
     scene = scene_of_grids({"kt": [0.0, 1.0], "observables": asked})
     assert scene.responses(16, 0.9, 0.0)[3:] == ["spectrum_rattlers"]
-    assert scene.responses(16, 0.9, 1.0)[3:] == ["spectrum_rattlers", "spectrum_hessian", "probes"]
+    assert scene.responses(16, 0.9, 1.0)[3:] == [
+        "spectrum_rattlers",
+        "spectrum_hessian",
+        "claim_diagnostics",
+    ]

@@ -41,7 +41,7 @@ MISTAKES = [  # key, value, parts of the message with " … " for what lies betw
     ("grids", [1], "grids[0]: expected a block of keys, got 1"),
     ("grid", GRID, "unknown key 'grid', expected one of study, grids"),
     ("grid.block", 2, "grids[0]: unknown key 'block', expected one of n"),
-    ("block", 0, "block: expected a whole number from 1 … got 0"),
+    ("seeds_per_job", 0, "seeds_per_job: expected a whole number from 1 … got 0"),
     ("effects.friction", "no", "effects.friction: expected true or false, got 'no'"),
     (
         "effects.friction",
@@ -63,7 +63,7 @@ MISTAKES = [  # key, value, parts of the message with " … " for what lies betw
     (
         "grid.observables",
         {"spectrum": "all"},
-        "grids[0].observables.spectrum: expected one of none, counts, bands, … got 'all'",
+        "grids[0].observables.spectrum: expected one of none, counts, binned_averages, … got 'all'",
     ),
     (
         "grid.observables",
@@ -76,21 +76,21 @@ MISTAKES = [  # key, value, parts of the message with " … " for what lies betw
         "grids[0].observables.spectrum: expected eigenvalues or modes because "
         "observables.rattlers is true, got none",
     ),
-    ("protocol.spectrum.method", "lanczos", "one of auto, dense, windows, counting"),
+    ("protocol.spectrum.method", "lanczos", "one of auto, dense, slicing, inertia_counts"),
     ("protocol.spectrum.factorisation", "mumps", "one of auto, superlu, pardiso"),
-    ("protocol.spectrum.fineness", 0, "expected a number above 0.0 and up to 1.0"),
+    ("protocol.spectrum.bin_density", 0, "expected a number above 0.0 and up to 1.0"),
     ("protocol.spectrum.modes_per_bin", 5, "expected a whole number from 6"),
-    ("protocol.spectrum.substeps", 0, "expected a whole number from 1"),
+    ("protocol.spectrum.cells_per_bin", 0, "expected a whole number from 1"),
     (
         "protocol.compression.phi_step",
         3e-4,
         "expected a step that divides 0.01, such as 1e-4, got 0.0003",
     ),
     ("protocol.shear.strain", 0.50003, "expected a whole number of steps of 0.0001, got 0.50003"),
-    ("protocol.shear.smallest_step", 3e-6, "expected 0.0001 divided by 1, 10, 100"),
-    ("protocol.shear.smallest_step", 1e-3, "expected 0.0001 divided by 1, 10, 100"),
+    ("protocol.shear.min_step", 3e-6, "expected 0.0001 divided by 1, 10, 100"),
+    ("protocol.shear.min_step", 1e-3, "expected 0.0001 divided by 1, 10, 100"),
     ("protocol.compression.initial_phi", 0.60005, "a whole number of steps of 0.0001"),
-    ("protocol.compression.relaxation", "slow", "expected one of fast, fire"),
+    ("protocol.compression.relaxation", "slow", "expected one of fire_newton, fire"),
     ("protocol.compression.large_diameter", 0, "expected a number from 0.5 to 2.0 (d)"),
     ("protocol.compression.masses", "unit", "expected one of area, equal"),
     ("protocol.rattlers.threshold", 3, "expected a whole number from 0 to 2"),
@@ -154,12 +154,12 @@ def test_a_point_lies_in_one_grid():
 def test_grids_of_one_n_share_their_files_of_seeds():
     apart = {"phi": [0.85], "n": [64, 128]}
     with pytest.raises(ConfigurationError) as caught:
-        scene_of_grids({}, apart | {"seeds": 3}, block=2)
+        scene_of_grids({}, apart | {"seeds": 3}, seeds_per_job=2)
     assert str(caught.value) == (
         "grids[1].seeds: expected 4 as in grids[0], or the smaller of both a multiple of "
         "block = 2, because both share the files of n = 64, got 3"
     )
-    assert scene_of_grids({}, apart | {"seeds": 2}, block=2)
-    assert scene_of_grids({"seeds": 3}, apart | {"seeds": 2}, block=2)
-    assert scene_of_grids({"seeds": 3}, apart | {"seeds": 3}, block=2)
-    assert scene_of_grids({}, {"n": [128], "seeds": 3}, block=2)
+    assert scene_of_grids({}, apart | {"seeds": 2}, seeds_per_job=2)
+    assert scene_of_grids({"seeds": 3}, apart | {"seeds": 2}, seeds_per_job=2)
+    assert scene_of_grids({"seeds": 3}, apart | {"seeds": 3}, seeds_per_job=2)
+    assert scene_of_grids({}, {"n": [128], "seeds": 3}, seeds_per_job=2)

@@ -7,11 +7,11 @@ from jsonschema import Draft202012Validator
 
 from grainmodes.configuration import read_scene
 from grainmodes.configuration.schema import complete, schema
+from grainmodes.parameters.complex_pairs import DETECTIONS
 from grainmodes.parameters.compression import RELAXATIONS
 from grainmodes.parameters.factors import FACTORISATIONS
 from grainmodes.parameters.figures import FIGURES
 from grainmodes.parameters.law import NORMAL_LAWS, TANGENTIAL_LAWS
-from grainmodes.parameters.pairs import DETECTIONS
 from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.spectra import SPECTRA, SPECTRUM_METHODS
 from grainmodes.parameters.strain import LOWEST_EIGENVALUES, STRAIN_RELAXATIONS

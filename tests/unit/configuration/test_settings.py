@@ -12,9 +12,9 @@ from scenes import (
 )
 
 SPECTRA = {"spectrum", "spectrum_rattlers", "spectrum_hessian"}
-SHEARED = {"shear", "close_up", "pairs"}
+SHEARED = {"shear", "event_detail", "complex_pairs"}
 STAGES = [
-    *("compress", "rigidity", "step_strain", "fields", "probes", "release", "ensemble"),
+    *("compress", "rigidity", "step_strain", "fields", "claim_diagnostics", "release", "ensemble"),
     *sorted(SPECTRA | SHEARED),
 ]
 DEPENDENCE = {
@@ -23,17 +23,20 @@ DEPENDENCE = {
     "protocol.compression.masses": ("equal", {"compress", "ensemble"}),
     "protocol.rattlers.threshold": (
         1,
-        {"rigidity", "fields", "probes", "ensemble"} | SPECTRA,
+        {"rigidity", "fields", "claim_diagnostics", "ensemble"} | SPECTRA,
     ),
-    "protocol.step_strain.strain": (1e-5, {"step_strain", "fields", "probes", "ensemble"}),
+    "protocol.step_strain.strain": (
+        1e-5,
+        {"step_strain", "fields", "claim_diagnostics", "ensemble"},
+    ),
     "protocol.shear.strain": (0.2, SHEARED | {"ensemble"}),
-    "protocol.release.kick": (0.0, {"release", "ensemble"}),
-    "protocol.pairs.located": (2, {"pairs", "ensemble"}),
-    "protocol.spectrum.fineness": (1.0, SPECTRA | {"ensemble"}),
+    "protocol.release.initial_velocity": (0.0, {"release", "ensemble"}),
+    "protocol.complex_pairs.max_located": (2, {"complex_pairs", "ensemble"}),
+    "protocol.spectrum.bin_density": (1.0, SPECTRA | {"ensemble"}),
     "contact_law.normal": ("harmonic", set(STAGES)),
     "grid.seeds": (8, set()),
     "grid.observables": ({"spectrum": "eigenvalues"}, set()),
-    "block": (2, set()),
+    "seeds_per_job": (2, set()),
     "figures": (["g_phi"], set()),
 }
 

@@ -37,12 +37,12 @@ def test_the_default_scene_is_priced(capsys):
 def test_what_was_not_measured_is_marked(capsys, tmp_path):
     content = yaml.safe_load(COSTS.read_text())
     content["laws"]["rigidity"]["up_to"] = 128
-    content["laws"]["probes"]["up_to"] = 0
+    content["laws"]["claim_diagnostics"]["up_to"] = 0
     (tmp_path / "costs.yaml").write_text(yaml.safe_dump(content))
     text = said(capsys, str(CONFIG / "default.yaml"), "--costs", str(tmp_path / "costs.yaml"))
     marks = {line.split()[0]: line[-1] for line in text.splitlines() if line[-1:] in ("*", "?")}
     assert marks["rigidity"] == "*"
-    assert marks["probes"] == "?"
+    assert marks["claim_diagnostics"] == "?"
     assert "step_strain" not in marks
     assert "* beyond the largest N that was measured" in text
     assert "? never measured: a guess" in text

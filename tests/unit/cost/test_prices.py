@@ -9,7 +9,7 @@ from grainmodes.cost import estimate, wall_seconds
 from grainmodes.parameters.compression import Compression
 
 
-@pytest.mark.parametrize("stage", ["compress", "pack", "rigidity"])
+@pytest.mark.parametrize("stage", ["compress", "equilibrate", "rigidity"])
 def test_costs_grow_as_the_table_says(stage):
     law = TABLE.laws[{"compress": "trajectory"}.get(stage, stage)]
     small, large = (seconds_of_stage(scene_with({"n": [n]}), stage) for n in (64, 1024))
@@ -33,8 +33,8 @@ def test_a_trajectory_ends_at_its_highest_fraction():
     halfway = (TABLE.climb[0.83] + TABLE.climb[0.84]) / 2
     assert TABLE.share(0.835) == pytest.approx(halfway)
     assert TABLE.share(0.91) > TABLE.share(0.9) == 1.0
-    packed = seconds_of_stage(scene_with({"phi": [0.835]}), "pack") / 4
-    assert packed - TABLE.laws["pack"].seconds_at(64) == pytest.approx(
+    packed = seconds_of_stage(scene_with({"phi": [0.835]}), "equilibrate") / 4
+    assert packed - TABLE.laws["equilibrate"].seconds_at(64) == pytest.approx(
         law * (halfway - TABLE.climb[0.83])
     )
 
@@ -91,10 +91,10 @@ def test_jobs_are_those_of_the_workflow():
         {"phi": [0.85], "kt": [1.0], "seeds": 2} | observing(spectrum="counts", hessian=True),
         {"phi": [0.85], "kt": [0.0], "seeds": 2} | observing(spectrum="modes", fields=True),
     ]
-    scene = scene_with(*grids, block=2, figures=["dos"])
+    scene = scene_with(*grids, seeds_per_job=2, figures=["dos"])
     assert jobs(scene) == {
         "compress": 7,
-        "pack": 3,
+        "equilibrate": 3,
         "rigidity": 6,
         "step_strain": 4,
         "spectrum": 2,
@@ -109,7 +109,7 @@ def test_a_work_is_known_as_far_as_its_least_known_law():
     known = {name: replace(TABLE.laws[name], up_to=n) for name, n in laws.items()}
     table = replace(TABLE, laws=TABLE.laws | known)
     choices = {"spectrum": {"factorisation": "superlu"}}
-    scene = scene_with({"n": [4096]} | observing(spectrum="bands"), protocol=choices)
+    scene = scene_with({"n": [4096]} | observing(spectrum="binned_averages"), protocol=choices)
     (bands,) = [item for item in estimate(scene, table) if item.stage == "spectrum"]
     assert bands.up_to == 1024
 
@@ -125,11 +125,11 @@ def test_wall_time_is_shared_work_or_the_longest_chain():
 
 def test_the_longest_chain_ends_in_the_longest_response():
     grids = [{"n": [64]}, {"n": [2048], "seeds": 1} | observing(step_strain=True)]
-    items = estimate(scene_with(*grids, block=1), FREE)
+    items = estimate(scene_with(*grids, seeds_per_job=1), FREE)
     large = [item for item in items if item.n == 2048]
     chain = {item.stage: item.chain for item in large}
     assert wall_seconds(items, 1000) == pytest.approx(
-        chain["compress"] + chain["pack"] + max(chain["rigidity"], chain["step_strain"])
+        chain["compress"] + chain["equilibrate"] + max(chain["rigidity"], chain["step_strain"])
     )
     assert chain["rigidity"] != chain["step_strain"]
 

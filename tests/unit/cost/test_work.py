@@ -11,7 +11,7 @@ from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import Shear
 
-CHOICES = SpectrumChoices(factorisation="superlu", fineness=1.0)
+CHOICES = SpectrumChoices(factorisation="superlu", bin_density=1.0)
 PROTOCOL = Protocol(spectrum=CHOICES)
 
 
@@ -20,15 +20,15 @@ PROTOCOL = Protocol(spectrum=CHOICES)
     [
         ("counts", 256, "auto", {"dense_values": 1}),
         ("counts", 4096, "auto", {"count_superlu": 641}),
-        ("counts", 256, "counting", {"count_superlu": 641}),
+        ("counts", 256, "inertia_counts", {"count_superlu": 641}),
         ("counts", 4096, "dense", {"dense_values": 1}),
-        ("bands", 256, "auto", {"dense_modes": 1}),
-        ("bands", 1024, "auto", {"dense_modes": 1}),
-        ("bands", 65536, "auto", {"count_superlu": 8 * 641, "window_superlu": 60 * 641}),
-        ("bands", 4096, "auto", {"count_superlu": 8 * 641, "window_superlu": 3 * 4096}),
+        ("binned_averages", 256, "auto", {"dense_modes": 1}),
+        ("binned_averages", 1024, "auto", {"dense_modes": 1}),
+        ("binned_averages", 65536, "auto", {"count_superlu": 8 * 641, "window_superlu": 60 * 641}),
+        ("binned_averages", 4096, "auto", {"count_superlu": 8 * 641, "window_superlu": 3 * 4096}),
         ("eigenvalues", 1024, "auto", {"dense_values": 1}),
         ("modes", 1024, "auto", {"dense_modes": 1}),
-        ("modes", 1024, "windows", {"window_superlu": 3 * 1024}),
+        ("modes", 1024, "slicing", {"window_superlu": 3 * 1024}),
         ("modes", 4096, "auto", {"window_superlu": 3 * 4096}),
         ("modes", 4096, "dense", {"dense_modes": 1}),
     ],
@@ -40,7 +40,7 @@ def test_a_spectrum_is_the_work_of_its_method(kind, n, method, units):
 
 
 def test_without_rotation_there_is_less_of_a_spectrum():
-    asked = Protocol(spectrum=replace(CHOICES, method="windows"))
+    asked = Protocol(spectrum=replace(CHOICES, method="slicing"))
     assert work("spectrum", "modes", 1024, 0.0, asked, TABLE) == {"window_superlu": 2048}
     assert work("spectrum", "counts", 4096, 0.0, asked, TABLE) == {"count_superlu": 541}
 
@@ -59,7 +59,7 @@ def test_a_shear_is_priced_by_its_strain():
     ("choices", "millions"),
     [
         (Release(), 3.2),
-        (Release(duration=40.0, least_time=0.0, dampings=(1.0,)), 0.04),
+        (Release(duration=40.0, min_time=0.0, dampings=(1.0,)), 0.04),
         (Release(time_step=0.05, dampings=()), 6),
     ],
 )

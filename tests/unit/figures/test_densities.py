@@ -58,21 +58,21 @@ def test_fractions_of_the_modes_separate_the_bands(ensemble):
 
 
 def test_fineness_scales_the_linear_bins(ensemble):
-    fine = dos.table(ensemble, Options(kt=(1e-4,), fineness=1.0))
-    coarse = dos.table(ensemble, Options(kt=(1e-4,), fineness=0.1))
+    fine = dos.table(ensemble, Options(kt=(1e-4,), bin_density=1.0))
+    coarse = dos.table(ensemble, Options(kt=(1e-4,), bin_density=0.1))
     assert len(fine) - len(coarse) > 500
     assert fine["modes"].sum() == coarse["modes"].sum()
 
 
 def test_fineness_is_that_of_the_study_where_no_other_is_asked_for(tmp_path):
     point = synthetic.point(tmp_path, 16, 0.9, 1e-4, 2)
-    chosen, bins = {"protocol": {"spectrum": {"fineness": 0.1}}}, {}
+    chosen, bins = {"protocol": {"spectrum": {"bin_density": 0.1}}}, {}
     for name, config in {"silent": {}, "0.1": chosen}.items():
         write_ensemble([point], tmp_path / f"{name}.nc", config)
         with open_ensemble(tmp_path / f"{name}.nc") as dataset:
             bins[name] = dos.table(dataset, Options())["omega"].tolist()
             for asked in (0.1, 0.2):
-                bins[asked] = dos.table(dataset, Options(fineness=asked))["omega"].tolist()
+                bins[asked] = dos.table(dataset, Options(bin_density=asked))["omega"].tolist()
     assert bins["silent"] == bins[0.2] != bins["0.1"] == bins[0.1]
 
 

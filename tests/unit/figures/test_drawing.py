@@ -58,7 +58,7 @@ def test_a_study_without_a_jammed_sample_still_has_its_figures(name, tmp_path):
         ("dos", {"kt": (3.0,)}, "kt: expected one of 1e-08, .* got 3.0"),
         ("dos", {"n": 17}, "n: expected one of 16 in this ensemble, got 17"),
         ("dos_n", {"kt": (1e-8, 1.0)}, "kt: expected one value for this figure, got 2"),
-        ("dos", {"fineness": 0.0}, r"expected a fineness in \(0, 1\], got 0.0"),
+        ("dos", {"bin_density": 0.0}, r"expected a bin_density in \(0, 1\], got 0.0"),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_and_leaves_no_file(

@@ -1,4 +1,4 @@
-"""Figures of one event: the plotted numbers against synthetic close-ups, and what is drawn."""
+"""Figures of one event: the plotted numbers against synthetic event details, and what is drawn."""
 
 import numpy as np
 import pandas as pd
@@ -20,7 +20,7 @@ from grainmodes.figures.shared.selection import Options
 from grainmodes.parameters.figures import FIGURES
 from pictures import numbers_of
 
-OF_EVENTS = [name for name, figure in FIGURES.items() if figure.source == "close_up"]
+OF_EVENTS = [name for name, figure in FIGURES.items() if figure.source == "event_detail"]
 MAPS = {
     "event_eigenvectors": event_eigenvectors,
     "event_rate": event_rate,
@@ -35,7 +35,7 @@ LENGTHS = dict.fromkeys(MAPS, 36) | {
 CRITICAL, LOOSE = 0.02, 3
 
 
-def close_up(n=36, phi=0.9, kt=1.0, jammed=True, event=True) -> Block:
+def event_detail(n=36, phi=0.9, kt=1.0, jammed=True, event=True) -> Block:
     """Grains on a square lattice with random fields, and an event at `CRITICAL`."""
     draws = np.random.default_rng([n, round(phi * 100)])
     side = int(np.sqrt(n))
@@ -55,7 +55,7 @@ def close_up(n=36, phi=0.9, kt=1.0, jammed=True, event=True) -> Block:
     if jammed and event:
         variables |= _brackets() | _near() | _fields(n, kt, draws)
     config = {"law": {"normal": "harmonic"}, "rate": 1e-8, "slope": 1e-7}
-    attributes = {"stage": "close_up", "n": n, "phi": phi, "kt": kt, "config": config}
+    attributes = {"stage": "event_detail", "n": n, "phi": phi, "kt": kt, "config": config}
     return Block(variables, attributes)
 
 
@@ -76,7 +76,7 @@ def _brackets() -> dict:
     curve[0, 1, :4] = CRITICAL + 1e-5 * np.array([-1.5, -0.5, 0.5, 1.5])
     curve[0, 2, 0] = 0.5
     row = {
-        "smallest_step": [1e-4, 1e-5, 1e-6],
+        "min_step": [1e-4, 1e-5, 1e-6],
         "kind": [1, 3, 0],
         "strain_before": [curve[0, 0, 1], curve[0, 1, 1], np.nan],
         "strain_after": [curve[0, 0, 2], curve[0, 1, 2], np.nan],
@@ -119,7 +119,7 @@ def _fields(n: int, kt: float, draws) -> dict:
 
 @pytest.mark.parametrize("name", OF_EVENTS)
 def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, tmp_path):
-    write_block(tmp_path / "one.nc", close_up())
+    write_block(tmp_path / "one.nc", event_detail())
     draw(name, [tmp_path / "one.nc"], tmp_path / name, {})
     numbers = numbers_of(tmp_path, name)
     assert len(numbers) == LENGTHS[name]
@@ -128,37 +128,37 @@ def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, tmp_path):
 @pytest.mark.parametrize("sample", [{"jammed": False}, {"event": False, "kt": 0.0}], ids=str)
 @pytest.mark.parametrize("name", OF_EVENTS)
 def test_a_sample_without_an_event_still_has_its_figure(name, sample, tmp_path):
-    write_block(tmp_path / "one.nc", close_up(**sample))
+    write_block(tmp_path / "one.nc", event_detail(**sample))
     draw(name, [tmp_path / "one.nc"], tmp_path / name, {})
     assert (tmp_path / f"{name}.pdf").exists()
     assert pd.read_csv(tmp_path / f"{name}.csv", comment="#").empty
 
 
 @pytest.mark.parametrize("name", OF_EVENTS)
-def test_fields_are_no_close_ups(name, tmp_path):
-    attributes = close_up().attributes | {"stage": "fields"}
-    write_block(tmp_path / "one.nc", Block(close_up().variables, attributes))
-    with pytest.raises(BlockError, match="expected close-ups, got fields"):
+def test_fields_are_no_event_details(name, tmp_path):
+    attributes = event_detail().attributes | {"stage": "fields"}
+    write_block(tmp_path / "one.nc", Block(event_detail().variables, attributes))
+    with pytest.raises(BlockError, match="expected event details, got fields"):
         draw(name, [tmp_path / "one.nc"], tmp_path / name, {})
 
 
 @pytest.mark.parametrize("name", [name for name in OF_EVENTS if name != "tangential_error"])
 def test_without_friction_a_figure_is_drawn_too(name, tmp_path):
-    write_block(tmp_path / "one.nc", close_up(kt=0.0))
+    write_block(tmp_path / "one.nc", event_detail(kt=0.0))
     draw(name, [tmp_path / "one.nc"], tmp_path / name, {})
     assert len(pd.read_csv(tmp_path / f"{name}.csv", comment="#")) == LENGTHS[name]
 
 
 def test_states_are_held_against_those_at_the_edge_of_the_event():
-    table = event_states.table([close_up()], Options())
+    table = event_states.table([event_detail()], Options())
     assert_allclose(table["g_change"], 2.0 * (table["distance"].abs() - 1e-10), atol=1e-15)
     assert_allclose(table["eigenvalue_change"], table["g_change"] / 10.0, atol=1e-15)
     assert (table["law"] == "harmonic").all()
 
 
 def test_brackets_know_their_ends_and_leave_out_walks_without_an_event():
-    table = event_brackets.table([close_up()], Options())
-    assert list(table["smallest_step"].unique()) == [1e-4, 1e-5]
+    table = event_brackets.table([event_detail()], Options())
+    assert list(table["min_step"].unique()) == [1e-4, 1e-5]
     ends = table[table["end"] != ""]
     assert list(ends["end"]) == ["before", "after"] * 2
     assert_allclose(ends["distance"], [-5e-5, 5e-5, -5e-6, 5e-6])
@@ -166,7 +166,7 @@ def test_brackets_know_their_ends_and_leave_out_walks_without_an_event():
 
 
 def test_fields_are_those_of_the_sample():
-    block = close_up()
+    block = event_detail()
     field = event_rate.table([block], Options())
     for prefix, name in (("theory", "rate"), ("simulation", "rate_simulated")):
         columns = [f"{prefix}_{component}" for component in ("x", "y", "rotation")]
@@ -185,7 +185,7 @@ def test_fields_are_those_of_the_sample():
 
 @pytest.mark.parametrize("name", [*MAPS, *SERIES])
 def test_each_figure_takes_the_size_nearest_to_the_papers(name):
-    blocks = [close_up(n=n, kt=kt) for n in (36, 144, 1024) for kt in (0.0, 1.0)]
+    blocks = [event_detail(n=n, kt=kt) for n in (36, 144, 1024) for kt in (0.0, 1.0)]
     table = (MAPS | SERIES)[name].table(blocks, Options())
     assert set(table["n"]) == {1024 if name in MAPS else 144}
     assert set(table["kt"]) == {1.0}
@@ -194,7 +194,7 @@ def test_each_figure_takes_the_size_nearest_to_the_papers(name):
 
 
 def test_err_is_that_of_a_sample_with_friction():
-    table = tangential_error.table([close_up(kt=0.0), close_up(event=False)], Options())
+    table = tangential_error.table([event_detail(kt=0.0), event_detail(event=False)], Options())
     assert set(table["kt"]) == {1.0}
     assert_allclose(table["error_median"], table["turn_median"] / 2.0)
     figure = Figure()

@@ -53,7 +53,7 @@ def test_differences_grow_as_the_root_of_the_distance(paired):
     table = pair_exponent.table(paired, Options())
     assert set(table["n"]) == {8, 16}
     assert_allclose(table["difference"], 0.1 * np.sqrt(table["distance"]))
-    assert set(table.loc[table["birth"] == 1, "of"]) == {0}
+    assert set(table.loc[table["birth"] == 1, "point"]) == {0}
     assert pair_exponent.table(paired, Options(n=8))["n"].unique().tolist() == [8]
 
 

@@ -14,8 +14,8 @@ from grainmodes.figures.paper_c import (
     film,
     release_contacts,
     release_damping,
-    release_fate,
     release_growth,
+    release_outcome,
     release_pressure,
     release_spectrum,
     release_spirals,
@@ -26,15 +26,15 @@ from grainmodes.parameters.figures import FIGURES
 from grainmodes.parameters.release import Release
 from grainmodes.stages.release import release_block
 from pictures import numbers_of
-from released import pairs_block, state
+from released import complex_pairs_block, state
 
 OF_RELEASES = [name for name, figure in FIGURES.items() if figure.source == "release"]
-CHOICES = Release(duration=22.0, least_time=0.0, dampings=(1.0, 4.0), records=300, spectra=4)
+CHOICES = Release(duration=22.0, min_time=0.0, dampings=(1.0, 4.0), n_records=300, spectra=4)
 
 
 @pytest.fixture(scope="module")
 def release() -> Block:
-    return release_block(pairs_block(), state()[1], CHOICES)
+    return release_block(complex_pairs_block(), state()[1], CHOICES)
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +54,7 @@ def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, path, tmp_
 
 @pytest.mark.parametrize("name", OF_RELEASES)
 def test_a_study_without_an_unstable_state_still_has_its_figures(name, tmp_path):
-    pairs = pairs_block()
+    pairs = complex_pairs_block()
     pairs.variables["unstable_found"][:] = 0
     write_block(tmp_path / "none.nc", release_block(pairs, state()[1], CHOICES))
     draw(name, [tmp_path / "none.nc"], tmp_path / name, {})
@@ -90,7 +90,7 @@ def test_spirals_end_where_the_film_does(release):
 
 
 def test_the_fate_has_every_sample_and_the_spectrum_every_pair(release):
-    assert release_fate.table([release], Options())["seed"].unique().tolist() == [0]
+    assert release_outcome.table([release], Options())["seed"].unique().tolist() == [0]
     rows, values = release_spectrum.table([release], Options()), release.variables
     pairs = values["release_spectrum_pairs"][0]
     assert len(rows) == pairs.sum()
@@ -125,12 +125,12 @@ def test_what_is_not_there_is_refused(release):
     with pytest.raises(ValueError, match=r"seed: expected .* got 7"):
         release_growth.table([release], Options(seed=7))
     with pytest.raises(ValueError, match=r"n: expected .* got 51"):
-        release_fate.table([release], Options(n=51))
+        release_outcome.table([release], Options(n=51))
 
 
 def test_two_files_of_the_same_samples_are_refused(path, tmp_path):
     with pytest.raises(BlockError, match="duplicate n, phi and kt"):
-        draw("release_fate", [path, path], tmp_path / "x", {})
+        draw("release_outcome", [path, path], tmp_path / "x", {})
 
 
 def test_the_film_moves_and_is_written_by_a_command(release, tmp_path, monkeypatch):

@@ -114,7 +114,7 @@ def test_springs_never_loaded_are_not_stored_and_take_the_symmetric_way(monkeypa
     refuse(monkeypatch, (History, "__init__"), *general)
     monkeypatch.setattr(Contacts, "displacement", property(None))
     contacts = find_contacts(packing)
-    assert contacts.tangential_displacement is None
+    assert contacts.spring_state is None
     assert net_force(packing, contacts, FRICTION).shape == (36, 3)
     assert np.isfinite(rigidity(packing, FRICTION).loaded.g)
     eigenproblem = problem(packing, FRICTION)
@@ -139,7 +139,7 @@ VECTORS = ((dense, "eigenpairs"), (spectrum_slicing, "eigenpairs"), (spectrum_sl
 
 
 @pytest.mark.parametrize("rule", [NO_FRICTION, FRICTION], ids=["frictionless", "frictional"])
-@pytest.mark.parametrize("method", ["dense", "counting"])
+@pytest.mark.parametrize("method", ["dense", "inertia_counts"])
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_counts_need_no_eigenvector(monkeypatch, rule, method, backend):
     eigenproblem, choices = problem(quenched(36, 0.92), rule), SpectrumChoices(method, backend)

@@ -21,12 +21,20 @@ def test_a_law_is_a_power_of_n():
 
 
 def test_every_law_of_the_table_is_used():
-    every = {"rigidity", "step_strain", "fields", "probes", "shear", "close_up", "release"}
-    every |= {"variants", "pairs"}
-    used = {"trajectory", "pack"} | every
+    every = {
+        "rigidity",
+        "step_strain",
+        "fields",
+        "claim_diagnostics",
+        "shear",
+        "event_detail",
+        "release",
+    }
+    every |= {"law_comparison", "complex_pairs"}
+    used = {"trajectory", "equilibrate"} | every
     for factorisation in ("superlu", "pardiso"):
         choices = SpectrumChoices(factorisation=factorisation)
-        for kind in ("counts", "bands", "eigenvalues", "modes"):
+        for kind in ("counts", "binned_averages", "eigenvalues", "modes"):
             for n in (64, 65536):
                 used |= set(work("spectrum", kind, n, 1.0, Protocol(spectrum=choices), TABLE))
     assert used == set(TABLE.laws)

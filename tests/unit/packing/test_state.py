@@ -64,7 +64,7 @@ def test_positions_survive_the_round_trip(strain):
 def test_a_history_may_come_in_any_order():
     packing = crowd(6, slip=0.3)
     h, shuffle = packing.history, np.random.default_rng(0).permutation(len(packing.history.i))
-    swapped = History(h.j[shuffle], h.i[shuffle], h.tangential_displacement[shuffle])
+    swapped = History(h.j[shuffle], h.i[shuffle], h.spring_state[shuffle])
     again = Packing.from_positions(
         packing.position, packing.diameter, packing.box_length, 0.0, packing.mass, swapped
     )
@@ -123,13 +123,13 @@ def test_slip_follows_its_contact_and_new_contacts_have_none():
     packing = crowd(4, slip=0.3)
     contacts = find_contacts(packing)
     h = packing.history
-    fewer = replace(packing, history=History(h.i[1:], h.j[1:], h.tangential_displacement[1:]))
-    s = find_contacts(fewer).tangential_displacement
+    fewer = replace(packing, history=History(h.i[1:], h.j[1:], h.spring_state[1:]))
+    s = find_contacts(fewer).spring_state
     assert s[0] == 0.0
-    np.testing.assert_array_equal(s[1:], contacts.tangential_displacement[1:])
+    np.testing.assert_array_equal(s[1:], contacts.spring_state[1:])
     nothing = np.zeros(0, np.int32)
     empty = replace(packing, history=History(nothing, nothing, np.zeros(0)))
-    assert np.all(find_contacts(empty).tangential_displacement == 0.0)
+    assert np.all(find_contacts(empty).spring_state == 0.0)
 
 
 @few(30)

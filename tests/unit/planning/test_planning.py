@@ -101,7 +101,7 @@ def test_the_bin_that_needs_most_drives_the_plan(tmp_path):
     assert worst.place == tuple(synthetic.edges(1e-4)[9:11])
     assert median.place == tuple(synthetic.edges(1e-4)[5:7])
     assert worst.need.seeds == needed(count[:, 9], 0.01).seeds
-    assert worst.kind == "bands"
+    assert worst.kind == "binned_averages"
     assert "48 of 50 bins" in left[0]
 
 
@@ -159,7 +159,7 @@ def test_hours_are_those_of_the_stages():
     table = read_table()
     rigidity = seconds_per_seed((1024, 0.9, 1e-4), "none", Protocol(), table)
     laws = table.laws
-    parts = (laws[name].seconds for name in ("trajectory", "pack", "rigidity"))
+    parts = (laws[name].seconds for name in ("trajectory", "equilibrate", "rigidity"))
     assert rigidity == pytest.approx(sum(parts))
     modes = seconds_per_seed((1024, 0.9, 1e-4), "modes", Protocol(), table)
     assert modes - rigidity == pytest.approx(laws["dense_modes"].seconds - laws["rigidity"].seconds)

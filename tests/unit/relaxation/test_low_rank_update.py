@@ -62,7 +62,7 @@ def without_contact(balance: Balance, place: int) -> Balance:
     """As it is, one contact left out of its list."""
     kept = np.arange(len(balance.contacts.i)) != place
     contacts = balance.contacts
-    s = contacts.tangential_displacement
+    s = contacts.spring_state
     less = type(contacts)(
         *(getattr(contacts, name)[kept] for name in ("i", "j", "normal", "distance", "overlap")),
         None if s is None else s[kept],

@@ -199,7 +199,7 @@ def test_a_sum_over_modes_that_are_not_known_is_refused():
     """Windows give modes below the lowest safe edge an eigenvalue 0, as at k_T/k_N = 1e-15."""
     packing, law = reference(MINIMAL[0])[1], elastic("hertz", 1e-15)
     by_mode = ModeRigidity(packing, law)
-    choices = SpectrumChoices("windows")
+    choices = SpectrumChoices("slicing")
     found = spectrum(packing, law, forces=by_mode.forces, choices=choices)
     with pytest.raises(ArithmeticError, match="below the lowest safe edge"):
         by_mode.contributions(found)
@@ -213,7 +213,7 @@ def test_windows_and_dense_modes_give_the_same_sum(kt):
         by_mode.contributions(
             spectrum(packing, law, forces=by_mode.forces, choices=SpectrumChoices(method))
         ).sum()
-        for method in ("dense", "windows")
+        for method in ("dense", "slicing")
     ]
     assert sums[1] == pytest.approx(sums[0], rel=1e-9)
     exact = rigidity(packing, law).unloaded

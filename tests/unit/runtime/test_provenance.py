@@ -11,7 +11,7 @@ from grainmodes.runtime import environment, provenance
 
 STAGES = {
     "compress": "grainmodes.stages.packings:compress_block",
-    "pack": "grainmodes.stages.packings:packing_block",
+    "equilibrate": "grainmodes.stages.packings:packing_block",
     "rigidity": "grainmodes.stages.packings:rigidity_block",
     "step_strain": "grainmodes.stages.packings:step_strain_block",
     "spectrum": "grainmodes.stages.spectrum:spectrum_block",
@@ -134,7 +134,7 @@ def test_figures_stand_alone():
 
 
 @pytest.mark.parametrize(
-    "stage", ["rigidity", "step_strain", "spectrum", "fields", "compress", "pack"]
+    "stage", ["rigidity", "step_strain", "spectrum", "fields", "compress", "equilibrate"]
 )
 def test_every_computing_stage_counts_the_kernels_it_calls(stage):
     assert {"kernels/laws/elastic.py", "kernels/compiler.py", "dataset/files.py"} <= names(

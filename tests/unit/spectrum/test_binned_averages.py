@@ -13,7 +13,7 @@ from grainmodes.spectrum.inertia_counts import counts, rotational_sums
 from grainmodes.statistics.binning import fixed_edges
 
 FINE = fixed_edges(1e-4, 0.1)
-COUNTING = SpectrumChoices("counting")
+COUNTING = SpectrumChoices("inertia_counts")
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
@@ -21,9 +21,9 @@ COUNTING = SpectrumChoices("counting")
 def test_bins_of_few_modes_are_exact(kt, backend):
     eigenproblem = problem(quenched(256, 0.90), elastic("hertz", kt))
     edges = fixed_edges(kt, 0.1)
-    counted = band_averages(eigenproblem, edges, True, SpectrumChoices("counting", backend))
+    counted = band_averages(eigenproblem, edges, True, SpectrumChoices("inertia_counts", backend))
     whole = band_averages(eigenproblem, edges, True, SpectrumChoices("dense"))
-    assert (counted.method, whole.method) == ("counting", "dense")
+    assert (counted.method, whole.method) == ("inertia_counts", "dense")
     np.testing.assert_array_equal(counted.count, whole.count)
     assert counted.below + counted.count.sum() == counted.modes == eigenproblem.size
     few = counted.count <= 60
@@ -37,7 +37,7 @@ def test_the_cheapest_method_is_chosen_by_size():
     small = band_averages(problem(quenched(64, 0.90), elastic("hertz", 1e-4)), FINE, False)
     assert (small.method, small.factorisation) == ("dense", "none")
     large = band_averages(problem(quenched(1024, 0.90), elastic("hertz", 1e-4)), FINE, False)
-    assert large.method == "counting"
+    assert large.method == "inertia_counts"
 
 
 @cache
@@ -49,7 +49,7 @@ def cases():
             eigenproblem = problem(quenched(256, 0.90, seed), elastic("hertz", kt))
             top = 1.05 * np.sqrt(eigenproblem.bound)
             edges = np.linspace(0.05, min(top, 1.2 * np.sqrt(1 + kt)), 9)
-            choices = SpectrumChoices("counting", modes_per_bin=24)
+            choices = SpectrumChoices("inertia_counts", modes_per_bin=24)
             stated = band_averages(eigenproblem, edges, True, choices)
             truth = band_averages(eigenproblem, edges, True, SpectrumChoices("dense"))
             many = stated.count > choices.modes_per_bin
@@ -79,13 +79,13 @@ def test_errors_are_no_larger_than_they_must_be():
     assert np.median(rows["p"][:, 1] / rows["p"][:, 0]) < 0.15
 
 
-@pytest.mark.parametrize("substeps", [1, 2, 3])
-def test_fractions_that_are_0_or_1_are_counted_exactly(substeps):
+@pytest.mark.parametrize("cells_per_bin", [1, 2, 3])
+def test_fractions_that_are_0_or_1_are_counted_exactly(cells_per_bin):
     """At k_T = 1e-8 a mode is a rotation or none: every crossing of the first leg is its own."""
     eigenproblem = problem(quenched(256, 0.90), elastic("hertz", 1e-8))
     shift, edges = SymmetricShift(eigenproblem.matrix), np.array([1e-6, 1e-3, 0.3, 0.8, 1.5])
     below = counts(shift, edges)
-    sums = rotational_sums(shift, below, edges, 3, substeps)
+    sums = rotational_sums(shift, below, edges, 3, cells_per_bin)
     np.testing.assert_array_equal(sums.total, [below[1] - below[0], 0, 0, 0])
 
 

@@ -21,9 +21,9 @@ FLOOR = 1e-14
 @pytest.mark.parametrize("kt", [1e-8, 1e-4, 1.0, 10.0])
 def test_windows_hold_every_mode_once(kt, backend):
     eigenproblem = problem(quenched(256, 0.90), elastic("hertz", kt))
-    windowed = full_spectrum(eigenproblem, choices=SpectrumChoices("windows", backend))
+    windowed = full_spectrum(eigenproblem, choices=SpectrumChoices("slicing", backend))
     whole = full_spectrum(eigenproblem, choices=SpectrumChoices("dense"))
-    assert (windowed.method, windowed.factorisation) == ("windows", backend)
+    assert (windowed.method, windowed.factorisation) == ("slicing", backend)
     assert windowed.residual < 1e-9 * eigenproblem.bound
     np.testing.assert_allclose(windowed.eigenvalue, whole.eigenvalue, atol=2e-14)
     apart = isolated(whole.eigenvalue)
@@ -53,7 +53,7 @@ def test_eigenvectors_of_all_windows_are_orthonormal():
 def test_small_eigenvalues_keep_their_relative_accuracy(kt):
     """Each lies between exact counts at λ (1 ± 1e-10), where LAPACK is good to 1e-6 at 1e-10."""
     eigenproblem = problem(reference(MINIMAL[0])[1], elastic(MINIMAL[0], kt))
-    values = full_spectrum(eigenproblem, choices=SpectrumChoices("windows")).eigenvalue
+    values = full_spectrum(eigenproblem, choices=SpectrumChoices("slicing")).eigenvalue
     for rank in (2, 9):
         bounds = values[rank] * (1 + np.array([-1e-10, 1e-10]))
         assert [exact.count_below(eigenproblem.matrix.toarray(), b) for b in bounds] == [
@@ -64,7 +64,7 @@ def test_small_eigenvalues_keep_their_relative_accuracy(kt):
 
 def test_windows_do_not_depend_on_the_number_of_processes():
     eigenproblem = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
-    choices = SpectrumChoices("windows")
+    choices = SpectrumChoices("slicing")
     one, two = (full_spectrum(eigenproblem, choices=choices, processes=p) for p in (1, 2))
     for name in ("eigenvalue", "psi_rotational", "participation_ratio"):
         np.testing.assert_array_equal(getattr(one, name), getattr(two, name))
@@ -109,7 +109,7 @@ def test_negative_eigenvalues_are_found_too():
     forces = np.random.default_rng(0).standard_normal((eigenproblem.size, 1))
     windowed, whole = (
         full_spectrum(unstable, forces=forces, choices=SpectrumChoices(method))
-        for method in ("windows", "dense")
+        for method in ("slicing", "dense")
     )
     assert np.count_nonzero(whole.eigenvalue < -0.1) > 10
     np.testing.assert_allclose(windowed.eigenvalue, whole.eigenvalue, atol=1e-13)

@@ -43,7 +43,7 @@ def block(*packed_packings: Packing) -> Block:
 
 def row(packing: Packing, kt: float, protocol: Protocol | None = None) -> Block:
     law = ContactLaw("hertz", "elastic", kt)
-    return claim_diagnostics.probes_block(block(packing), law, protocol or Protocol())
+    return claim_diagnostics.claim_diagnostics_block(block(packing), law, protocol or Protocol())
 
 
 def loose(packing: Packing) -> Packing:
@@ -146,13 +146,13 @@ def test_the_row_of_a_jammed_packing():
     found = row(packing, KT)
     values = {name: array[0] for name, array in found.variables.items()}
     strains = [1e-6, 1e-5, 1e-4]
-    np.testing.assert_array_equal(values["probe_strain"], strains)
+    np.testing.assert_array_equal(values["diagnostic_strain"], strains)
     steps = [forward_rigidity(packing, elastic(SMALL, KT), StepStrain(strain=x)) for x in strains]
     np.testing.assert_array_equal(values["g_forward_by_strain"], steps)
     assert values["hessian_difference"] < 1e-15 < 1.0 < values["hessian_printed_difference"]
     assert values["jammed_frictional"] == 1 and values["complex_pairs_frictional"] >= 0
     assert values["converged"] == 1 and found.attributes["failures"] == {}
-    assert found.attributes["stage"] == "probes" and found.attributes["kt"] == KT
+    assert found.attributes["stage"] == "claim_diagnostics" and found.attributes["kt"] == KT
 
 
 def test_without_friction_there_is_neither_verlet_nor_compression():
@@ -197,7 +197,7 @@ def test_a_probe_that_fails_leaves_its_sentence_and_the_others(monkeypatch):
 def test_the_command_writes_what_the_function_finds(tmp_path):
     packings = block(reference(SMALL)[1])
     write_block(tmp_path / "packings.nc", packings)
-    words = ["probes", str(tmp_path / "packings.nc"), "--kt", "0"]
+    words = ["claim_diagnostics", str(tmp_path / "packings.nc"), "--kt", "0"]
     rattlers = json.dumps({"protocol": {"rattlers": {"threshold": 1}}})
     assert main([*words, "--settings", rattlers, "-o", str(tmp_path / "probes.nc")]) == 0
     written = read_block(tmp_path / "probes.nc")

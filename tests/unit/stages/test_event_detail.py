@@ -33,7 +33,7 @@ from grainmodes.protocols.shear.first_event import (
 from grainmodes.protocols.shear.run import Walk
 from grainmodes.protocols.shear.tangential_path import TangentialPath, error
 from grainmodes.response.stability import SMALL, lowest_mode
-from grainmodes.stages.event_detail import close_up_block
+from grainmodes.stages.event_detail import event_detail_block
 from grainmodes.stages.rows import block_of
 from grainmodes.stages.samples import packed
 
@@ -64,7 +64,7 @@ def block(law: ContactLaw, strain: float = 0.012) -> Block:
     row = packed(packing_of(law), Harmonic(1.0)) | {"converged": True}
     attributes = {"stage": "packings", "n": 64, "phi": 0.86}
     packings = block_of((2, 5), lambda _: row, {}, attributes)
-    return close_up_block(packings, law, Shear(strain))
+    return event_detail_block(packings, law, Shear(strain))
 
 
 def test_brackets_without_friction_lie_within_each_other():
@@ -132,7 +132,7 @@ def test_a_fold_is_seen_as_one():
     law, choices = ContactLaw("hertz", "elastic", 1.0), Shear(0.11, 1e-3, 1e-7)
     walk = Walk.start(packing_of(law), interaction(law), choices)
     before, after = next(pair for pair in steps(walk) if walk.events)
-    fold = Bracket(choices.smallest_step, before, walk.curve, walk.events[0], after)
+    fold = Bracket(choices.min_step, before, walk.curve, walk.events[0], after)
     towards = [n.state for n in states_around(fold, choices) if -1e-4 < n.distance < -2e-7]
     ratios = [a.lowest / b.lowest for a, b in pairwise(towards)]
     assert_allclose(ratios, np.sqrt(10.0), rtol=0.1)
@@ -250,7 +250,7 @@ def test_without_an_event_there_is_nothing_to_look_at(law, tmp_path):
     assert (found["event_count"][0], found["converged"][0]) == (0, 1)
     assert not found["bracket_kind"].any() and np.isnan(found["bracket_strain_after"]).all()
     assert "near_g" not in found and "rate" not in found
-    write_block(tmp_path / "close_up.nc", block(law, 1e-3))
+    write_block(tmp_path / "event_detail.nc", block(law, 1e-3))
 
 
 def test_the_same_packing_gives_the_same_bytes(tmp_path):

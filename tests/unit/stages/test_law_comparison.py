@@ -141,24 +141,24 @@ def block_of(name: str) -> Block:
 
 
 def test_a_block_holds_every_law_side_by_side():
-    block = law_comparison.variants_block(block_of("harmonic_n16_phi0.900_seed1"), C8, BRIEF)
+    block = law_comparison.law_comparison_block(block_of("harmonic_n16_phi0.900_seed1"), C8, BRIEF)
     variables = block.variables
     assert set(variables) <= set(VARIABLES)
     assert variables["converged"][0] == variables["jammed"][0] == 1
-    assert variables["variant_count"][0] == 20
+    assert variables["comparison_count"][0] == 20
     for law in TANGENTIAL_LAWS:
-        pairs = variables[f"variant_pairs_slipping_{law}"][0]
-        growth = variables[f"variant_growth_{law}"][0]
+        pairs = variables[f"comparison_pairs_slipping_{law}"][0]
+        growth = variables[f"comparison_growth_{law}"][0]
         assert np.isfinite(pairs).all()
         np.testing.assert_array_equal(np.isfinite(growth), pairs > 0)
 
 
 def test_harmonic_springs_cannot_tell_what_they_remember():
-    block = law_comparison.variants_block(block_of("harmonic_n16_phi0.900_seed1"), C8, BRIEF)
+    block = law_comparison.law_comparison_block(block_of("harmonic_n16_phi0.900_seed1"), C8, BRIEF)
     for kind in ("elastic", "sharp_coulomb"):
         for number in ("pairs_slipping", "pairs_sticking", "slipping"):
             one, other = (
-                block.variables[f"variant_{number}_{law}"] for law in (kind, f"{kind}_force")
+                block.variables[f"comparison_{number}_{law}"] for law in (kind, f"{kind}_force")
             )
             np.testing.assert_array_equal(other, one)
 
@@ -169,13 +169,13 @@ def test_a_law_that_ended_early_is_told():
     found["sharp_coulomb"] = Variant(seen[:1], "lost")
     row = law_comparison.row_of(found)
     assert row["failure"] == "sharp_coulomb: lost" and not row["converged"]
-    np.testing.assert_array_equal(row["variant_strain"], [1e-3, 2e-3])
-    np.testing.assert_array_equal(row["variant_rate_sharp_coulomb"], [0.1, np.nan])
-    np.testing.assert_array_equal(row["variant_rate_elastic"], [0.1, 0.1])
+    np.testing.assert_array_equal(row["comparison_strain"], [1e-3, 2e-3])
+    np.testing.assert_array_equal(row["comparison_rate_sharp_coulomb"], [0.1, np.nan])
+    np.testing.assert_array_equal(row["comparison_rate_elastic"], [0.1, 0.1])
 
 
 def test_too_many_grains_are_refused(monkeypatch):
-    monkeypatch.setattr(law_comparison, "MOST_GRAINS", 10)
-    block = law_comparison.variants_block(block_of("harmonic_n16_phi0.900_seed1"), C8, BRIEF)
+    monkeypatch.setattr(law_comparison, "MAX_GRAINS", 10)
+    block = law_comparison.law_comparison_block(block_of("harmonic_n16_phi0.900_seed1"), C8, BRIEF)
     assert block.variables["converged"][0] == 0
     assert "16 grains: variants are counted up to 10" in block.attributes["failures"]["0"]

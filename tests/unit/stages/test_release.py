@@ -20,20 +20,20 @@ from grainmodes.parameters.release import Release
 from grainmodes.protocols.release.run import FRAMES, Run
 from grainmodes.stages.checkpoints import Keeping, of_run
 from grainmodes.stages.release import release_block, unstable_of
-from released import pairs_block, state
+from released import complex_pairs_block, state
 
-CHOICES = Release(duration=16.0, least_time=0.0, dampings=(1.0, 4.0), records=400, spectra=4)
+CHOICES = Release(duration=16.0, min_time=0.0, dampings=(1.0, 4.0), n_records=400, spectra=4)
 MAIN = "import sys; from grainmodes.cli import main; sys.exit(main(sys.argv[1:]))"
 
 
 @pytest.fixture(scope="module")
 def block():
-    return release_block(pairs_block(), state()[1], CHOICES)
+    return release_block(complex_pairs_block(), state()[1], CHOICES)
 
 
 def test_the_state_of_the_pairs_is_taken_up_exactly():
     start, _, rule = state()
-    found = unstable_of(pairs_block(), 0)
+    found = unstable_of(complex_pairs_block(), 0)
     assert max(largest(net_force(found.packing, find_contacts(found.packing), rule))) < 1e-14
     assert found.residual(rule) < 1e-12
     np.testing.assert_array_equal(found.packing.fraction, start.packing.fraction)
@@ -97,7 +97,7 @@ def test_a_sample_without_a_pair_says_so(block):
     ],
 )
 def test_a_pair_that_is_none_of_the_state_is_a_failed_row(name, value, sentence):
-    pairs = pairs_block()
+    pairs = complex_pairs_block()
     pairs.variables[name][0] = value
     failed = release_block(pairs, state()[1], CHOICES)
     assert failed.variables["converged"].tolist() == [0, 1]
@@ -111,16 +111,16 @@ def test_a_point_keeps_the_numbers_of_runs_and_no_records(block):
 
 
 def command(folder, name: str) -> list[str]:
-    release = {"duration": 5.0, "least_time": 0.0, "dampings": [1.0], "records": 300, "spectra": 3}
+    release = {"duration": 5.0, "min_time": 0.0, "dampings": [1.0], "records": 300, "spectra": 3}
     law = {"tangential": "smoothed_coulomb", "friction_coefficient": 10.0}
     settings = json.dumps({"contact_law": law, "protocol": {"release": release}})
     kt = repr(state()[1].kt)
     words = ["release", str(folder / "pairs.nc"), "--kt", kt, "--settings", settings]
-    return [*words, "--keep-every", "0.02", "-o", str(folder / name)]
+    return [*words, "--checkpoint-every", "0.02", "-o", str(folder / name)]
 
 
 def test_a_killed_release_goes_on_and_ends_with_the_same_bytes(tmp_path):
-    write_block(tmp_path / "pairs.nc", pairs_block())
+    write_block(tmp_path / "pairs.nc", complex_pairs_block())
     assert main(command(tmp_path, "whole.nc")) == 0
     run = subprocess.Popen(
         [sys.executable, "-c", MAIN, *command(tmp_path, "again.nc")], stderr=subprocess.DEVNULL
@@ -148,7 +148,7 @@ def test_a_line_says_how_far_a_run_is(tmp_path, capsys):
 
 
 def test_other_files_are_refused(tmp_path, capsys):
-    pairs = pairs_block()
+    pairs = complex_pairs_block()
     pairs.attributes["stage"] = "packings"
     write_block(tmp_path / "pairs.nc", pairs)
     assert main(command(tmp_path, "x.nc")) == 1

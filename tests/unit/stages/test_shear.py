@@ -29,11 +29,11 @@ from grainmodes.stages.shear import shear_block
 
 LAW = ContactLaw("harmonic", "elastic", 1.0)
 SMALL, LOOSE = "harmonic_n16_phi0.900_seed1", "harmonic_n64_phi0.860_seed2"
-CHOICES = Shear(strain=0.1, step=1e-3, smallest_step=1e-6, lowest_eigenvalue="states")
+CHOICES = Shear(strain=0.1, step=1e-3, min_step=1e-6, lowest_eigenvalue="states")
 MAIN = "import sys; from grainmodes.cli import main; sys.exit(main(sys.argv[1:]))"
 SETTINGS = {
     "contact_law": {"normal": "harmonic"},
-    "protocol": {"shear": {"strain": 0.03, "step": 1e-4, "smallest_step": 1e-8}},
+    "protocol": {"shear": {"strain": 0.03, "step": 1e-4, "min_step": 1e-8}},
 }
 
 
@@ -115,7 +115,7 @@ def test_a_point_keeps_curves_and_events_but_no_grains(sheared):
 
 def command(folder, name: str) -> list[str]:
     words = ["shear", str(folder / "packings.nc"), "--kt", "1", "--settings", json.dumps(SETTINGS)]
-    return [*words, "--keep-every", "0.05", "-o", str(folder / name)]
+    return [*words, "--checkpoint-every", "0.05", "-o", str(folder / name)]
 
 
 def test_a_killed_shear_goes_on_and_ends_with_the_same_bytes(tmp_path):
@@ -179,17 +179,17 @@ def test_the_block_reads_back(tmp_path, sheared):
 
 
 def test_a_shear_without_brackets_stands_beside_it():
-    choices = Shear(strain=0.03, step=1e-3, smallest_step=1e-6)
+    choices = Shear(strain=0.03, step=1e-3, min_step=1e-6)
     one = packings(reference(LOOSE)[1])
-    values = shear_block(one, LAW, choices, unbracketed=True).variables
-    assert values["unbracketed_strain"].shape == (1, 31)
-    alone = shear_block(one, LAW, Shear(strain=0.03, step=1e-3, smallest_step=1e-3)).variables
+    values = shear_block(one, LAW, choices, coarse_run=True).variables
+    assert values["coarse_strain"].shape == (1, 31)
+    alone = shear_block(one, LAW, Shear(strain=0.03, step=1e-3, min_step=1e-3)).variables
     stress = 0.5 * (alone["curve_stress_xy"] + alone["curve_stress_yx"])
-    np.testing.assert_array_equal(values["unbracketed_stress"], stress)
+    np.testing.assert_array_equal(values["coarse_stress"], stress)
     width = values["bracket_strain_after"] - values["bracket_strain_before"]
     np.testing.assert_allclose(
-        values["bracket_smallest_step"], choices.step / 10.0 ** np.arange(7)[None]
+        values["bracket_min_step"], choices.step / 10.0 ** np.arange(7)[None]
     )
     known = np.isfinite(width)
     assert known.any()
-    np.testing.assert_allclose(width[known], values["bracket_smallest_step"][known], rtol=1e-6)
+    np.testing.assert_allclose(width[known], values["bracket_min_step"][known], rtol=1e-6)

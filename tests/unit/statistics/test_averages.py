@@ -72,15 +72,15 @@ def test_rotational_window_is_redivided_into_100_linear_bins():
 
 
 @pytest.mark.parametrize("kappa", [0.0, 1e-8, 1e-4, 1.0, 10.0, 1e6])
-@pytest.mark.parametrize("fineness", [1.0, 0.1])
-def test_bins_ascend_over_exactly_the_range_of_the_data(kappa, fineness):
-    edges = binning.bin_edges(kappa, 0.013, 4.07, fineness)
+@pytest.mark.parametrize("bin_density", [1.0, 0.1])
+def test_bins_ascend_over_exactly_the_range_of_the_data(kappa, bin_density):
+    edges = binning.bin_edges(kappa, 0.013, 4.07, bin_density)
     assert (edges[0], edges[-1]) == (0.013, 4.07)
     assert (np.diff(edges) > 0).all()
 
 
 def test_fineness_scales_the_numbers_of_linear_bins():
-    edges = binning.bin_edges(1e-4, 1e-5, 1.0, fineness=0.1)
+    edges = binning.bin_edges(1e-4, 1e-5, 1.0, bin_density=0.1)
     assert ((edges >= 0.1 * (1 - 1e-12)) & (edges <= 1.0)).sum() == 51
     assert ((edges > 1e-3 * (1 - 1e-12)) & (edges < 2e-2 * (1 + 1e-12))).sum() == 11
 

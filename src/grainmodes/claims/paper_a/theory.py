@@ -59,11 +59,11 @@ def independent_of_strain(ensemble) -> Outcome:
 
     Criterion: |difference| < 1 %.
     """
-    samples = richest(ensemble, "g_forward_by_strain", "probe_strain")
+    samples = richest(ensemble, "g_forward_by_strain", "diagnostic_strain")
     parts = []
     for point in samples.points("g_forward_by_strain"):
         moduli = samples.of("g_forward_by_strain", *point).T
-        steps = np.nanmean(samples.of("probe_strain", *point), axis=0)
+        steps = np.nanmean(samples.of("diagnostic_strain", *point), axis=0)
         for step, of in zip(steps[1:], moduli[1:], strict=True):
             difference = relative_difference(of, moduli[0])
             parts.append(Part(f"Δγ = {step:g}, {at(*point)}", difference, -SAME, SAME))

@@ -7,7 +7,7 @@ from grainmodes.claims.paper_b import events, methods, theory
 
 CLAIMS: tuple[Claim, ...] = (
     theory.theory_is_simulation,
-    methods.independent_of_smallest_step,
+    methods.independent_of_min_step,
     events.jump_without_precursor,
     events.no_singularity,
     methods.critical_strain_converges,

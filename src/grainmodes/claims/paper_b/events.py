@@ -28,7 +28,7 @@ SUDDEN = 10.0
 MOST = 0.9
 """Share of all events that counts as all: the eigenvalue of another place may be the lowest."""
 
-POLES = ("event_quadrupole", "event_other_poles")
+POLES = ("event_quadrupole", "event_other_multipoles")
 
 PURE = 0.617
 """p_2 of rotations that go as cos 2ϑ: (π/4)²."""

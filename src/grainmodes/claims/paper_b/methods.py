@@ -17,7 +17,7 @@ from grainmodes.statistics.estimates import mean
 EXACT = -12.0
 """log10 of max|J - Jᵀ| / max|J| below which it is rounding."""
 
-UNBRACKETED = ("unbracketed_strain", "unbracketed_stress")
+UNBRACKETED = ("coarse_strain", "coarse_stress")
 
 RANGES = (
     ("γ ≤ 0.08", 0.0, 0.08, (-np.inf, SAME)),
@@ -31,23 +31,23 @@ ROUNDING = 1e-12
 ZERO = 1e-17
 """What stands for no difference at all."""
 
-BRACKET = ("smallest_step", "strain_before", "strain_after")
+BRACKET = ("min_step", "strain_before", "strain_after")
 
 CONVERGED = 1.1e-6
 """Δγ_Th from which on γ_c has converged: 1e-6, with room for rounding."""
 
 
 @claim("B2", unit="1")
-def independent_of_smallest_step(ensemble) -> Outcome:
+def independent_of_min_step(ensemble) -> Outcome:
     """Below γ = 0.08 the stress does not depend on Δγ_Th, above it does (Fig. 2).
 
     Root mean square of the difference of σ with events bracketed and not, in parts of that of σ.
 
     Criterion: below 1 % up to γ = 0.08, above 1 % beyond.
     """
-    samples = harmonic(ensemble, "curve_strain", "unbracketed_strain")
+    samples = harmonic(ensemble, "curve_strain", "coarse_strain")
     parts = []
-    for point in samples.points("unbracketed_strain"):
+    for point in samples.points("coarse_strain"):
         names = ("curve_strain", "curve_stress_xy", "curve_stress_yx")
         of = [samples.of(name, *point) for name in (*names, *UNBRACKETED)]
         for where, low, high, interval in RANGES:
@@ -76,7 +76,7 @@ def critical_strain_converges(ensemble) -> Outcome:
 
     Criterion: at most Δγ_Th at every Δγ_Th ≤ 1e-6 but the closest, in the mean.
     """
-    samples = harmonic(ensemble, "bracket_smallest_step")
+    samples = harmonic(ensemble, "bracket_min_step")
     parts = []
     for point in samples.points("bracket_strain_after"):
         width, before, after = (samples.of(f"bracket_{name}", *point) for name in BRACKET)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from grainmodes.claims.claim import Claim
-from grainmodes.claims.paper_c import pairs, release, variants
+from grainmodes.claims.paper_c import laws, pairs, release
 
 CLAIMS: tuple[Claim, ...] = (
     pairs.born_under_shear,
@@ -13,7 +13,7 @@ CLAIMS: tuple[Claim, ...] = (
     release.growth,
     release.second_instability,
     release.damping,
-    variants.smoothed_is_unstable,
-    variants.sharp_is_stable,
+    laws.smoothed_is_unstable,
+    laws.sharp_is_stable,
 )
 """C1 to C9, in this order."""

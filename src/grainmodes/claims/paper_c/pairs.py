@@ -96,7 +96,7 @@ def parallel_eigenvectors(ensemble) -> Outcome:
         found = _over(of, _at_the_point)
         if np.isfinite(found.error):
             parts.append(Part(where, found, PARALLEL))
-            far = _over(of, lambda s: float(_real(s).groupby("of")["product"].last().mean()))
+            far = _over(of, lambda s: float(_real(s).groupby("point")["product"].last().mean()))
             notes.append(f"At the farthest state, {where}, it is {far}.")
     return Outcome(parts, " ".join(notes))
 
@@ -109,7 +109,7 @@ def _real(sample: Sample) -> pd.DataFrame:
 
 def _at_the_point(sample: Sample) -> float:
     """The product at γ_c, mean over the coalescences with at least two states."""
-    pairs = [of.iloc[:2] for _, of in _real(sample).groupby("of") if len(of) > 1]
+    pairs = [of.iloc[:2] for _, of in _real(sample).groupby("point") if len(of) > 1]
     return float(np.mean([_extrapolated(*of["size"], *of["product"]) for of in pairs]))
 
 
@@ -124,8 +124,8 @@ def _grouped(ensemble) -> Iterator[tuple[str, list[Sample]]]:
     Raises:
         NotAsked: the ensemble lacks them.
     """
-    if "located_kind" not in ensemble:
-        raise NotAsked("located_kind, exceptional points of complex pairs")
+    if "exceptional_point_kind" not in ensemble:
+        raise NotAsked("exceptional_point_kind, exceptional points of complex pairs")
     groups: dict[tuple, list[Sample]] = {}
     for sample in samples(ensemble):
         place = sample.place

@@ -20,7 +20,7 @@ and step by step
 
   grainmodes compress --n 256 --phi 0.8 --seeds 0-7 -o 0.80.nc
   grainmodes compress --n 256 --phi 0.81 --seeds 0-7 --start 0.80.nc -o 0.81.nc
-  grainmodes pack 0.81.nc --phi 0.815 -o packings.nc
+  grainmodes equilibrate 0.81.nc --phi 0.815 -o packings.nc
   grainmodes rigidity packings.nc --kt 1e-4 -o rigidity.nc
 """
 

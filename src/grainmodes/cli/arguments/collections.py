@@ -43,10 +43,10 @@ def _figure(commands) -> None:
         "data",
         type=Path,
         nargs="+",
-        help="file of `grainmodes ensemble`, or files of `fields`, `close-up` or `release`",
+        help="file of `grainmodes ensemble`, or files of `fields`, `event-detail` or `release`",
     )
     _shown(command)
-    command.add_argument("--fineness", type=float, help="factor on the numbers of linear bins")
+    command.add_argument("--bin_density", type=float, help="factor on the numbers of linear bins")
     options.output(command, "path without suffix; .png, .pdf and .csv are written")
 
 

@@ -58,10 +58,10 @@ def settings(command) -> None:
     )
 
 
-def keep_every(command) -> None:
-    """`--keep-every`: how often long samples are kept."""
+def checkpoint_every(command) -> None:
+    """`--checkpoint-every`: how often long samples are kept."""
     command.add_argument(
-        "--keep-every",
+        "--checkpoint-every",
         type=seconds,
         default=120.0,
         metavar="SECONDS",

@@ -21,7 +21,7 @@ def define(commands) -> None:
         _fields,
         _probes,
         _shear,
-        _close_up,
+        _event_detail,
         _pairs,
         _release,
         _variants,
@@ -50,7 +50,7 @@ def _compress(commands) -> None:
 
 def _pack(commands) -> None:
     sentence = "Bring a checkpoint to an area fraction, in force balance."
-    command = options.command(commands, "pack", "stages:pack", sentence)
+    command = options.command(commands, "equilibrate", "stages:equilibrate", sentence)
     command.add_argument("start", type=Path, help="the checkpoint at or below --phi")
     options.phi(command)
     options.settings(command)
@@ -91,42 +91,42 @@ def _fields(commands) -> None:
 
 def _probes(commands) -> None:
     sentence = "What single claims of paper A need, probed on packings."
-    _response(commands, "probes", "stages:probes", sentence)
+    _response(commands, "claim-diagnostics", "stages:claim_diagnostics", sentence)
 
 
 def _shear(commands) -> None:
     sentence = "Quasistatic shear of packings, with every event between two states."
-    options.keep_every(_response(commands, "shear", "stages:shear", sentence))
+    options.checkpoint_every(_response(commands, "shear", "stages:shear", sentence))
 
 
-def _close_up(commands) -> None:
+def _event_detail(commands) -> None:
     sentence = "The first event in the shear of the first of some packings, looked at closely."
-    _response(commands, "close-up", "stages:close_up", sentence)
+    _response(commands, "event-detail", "stages:event_detail", sentence)
 
 
 def _pairs(commands) -> None:
     sentence = "Complex pairs of eigenvalues along the shear of packings, born, followed, dead."
-    _response(commands, "pairs", "stages:pairs", sentence)
+    _response(commands, "complex-pairs", "stages:complex_pairs", sentence)
 
 
 def _release(commands) -> None:
     sentence = "Dynamics from the unstable states of sheared samples, without damping and with."
     command = options.command(commands, "release", "stages:release", sentence)
-    command.add_argument("pairs", type=Path, help="file of `grainmodes pairs`")
+    command.add_argument("pairs", type=Path, help="file of `grainmodes complex-pairs`")
     options.kt(command)
     options.settings(command)
-    options.keep_every(command)
+    options.checkpoint_every(command)
     options.output(command)
 
 
 def _variants(commands) -> None:
     sentence = "Complex pairs of sheared packings under every tangential law, side by side."
-    _response(commands, "variants", "stages:variants", sentence)
+    _response(commands, "law-comparison", "stages:law_comparison", sentence)
 
 
 def _response(commands, name: str, run: str, sentence: str) -> argparse.ArgumentParser:
     command = options.command(commands, name, run, sentence)
-    command.add_argument("packings", type=Path, help="file of `grainmodes pack`")
+    command.add_argument("packings", type=Path, help="file of `grainmodes equilibrate`")
     options.kt(command)
     options.settings(command)
     options.output(command)

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import appearance
-from grainmodes.figures.shared.close_up_rows import (
+from grainmodes.figures.shared.event_detail_rows import (
     AFTER,
     BEFORE,
     SAMPLE,
@@ -26,7 +26,7 @@ SIDES = {"before": (BEFORE, "s"), "after": (AFTER, "o")}
 
 COLUMNS = {
     **SAMPLE,
-    "smallest_step": ("1", "smallest step of the walk"),
+    "min_step": ("1", "smallest step of the walk"),
     "end": ("", "before, after: the state is that end of its bracket; else empty"),
     "strain": ("1", "strain of a state of the walk"),
     "distance": ("1", "its strain less that of the event in the closest bracket"),
@@ -34,13 +34,13 @@ COLUMNS = {
 }
 
 
-def table(close_ups: list[Block], options: Options) -> pd.DataFrame:
+def table(event_details: list[Block], options: Options) -> pd.DataFrame:
     """A row per walk and state around its event, with the columns `COLUMNS`.
 
     Raises:
         ValueError: no sample has the n, phi or kt asked for.
     """
-    shown = with_event(close_ups, options, PAPER_N)
+    shown = with_event(event_details, options, PAPER_N)
     return joined((walk for block in shown for walk in _walks(block)), COLUMNS)
 
 
@@ -55,8 +55,8 @@ def _walks(block: Block):
             end[strain == of[f"bracket_strain_{side}"][place]] = side
         columns = {"strain": strain, "distance": strain - critical, "stress": stress, "end": end}
         columns = {name: column[held] for name, column in columns.items()}
-        step = of["bracket_smallest_step"][place]
-        yield pd.DataFrame(sample(block) | {"smallest_step": step} | columns)
+        step = of["bracket_min_step"][place]
+        yield pd.DataFrame(sample(block) | {"min_step": step} | columns)
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
@@ -70,9 +70,9 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
 
 
 def _curves(axes: Axes, table: pd.DataFrame) -> None:
-    steps = sorted(table["smallest_step"].unique(), reverse=True)
+    steps = sorted(table["min_step"].unique(), reverse=True)
     for place, (step, colour, marker) in enumerate(appearance.series(steps)):
-        of, size = table[table["smallest_step"] == step], 8.0 - 0.8 * place
+        of, size = table[table["min_step"] == step], 8.0 - 0.8 * place
         style = {"color": colour, "mfc": "none", "mew": 0.6, "markersize": size}
         axes.plot(1e4 * of["distance"], of["stress"], marker, **style, label=f"${_power(step)}$")
     axes.set(xlabel=r"$(\gamma - \gamma_c) \times 10^4$")
@@ -85,8 +85,8 @@ def _ends(axes: Axes, table: pd.DataFrame) -> None:
     """Symmetric logarithmic: below 0 the last state before the event, above it the first after."""
     for side, (colour, marker) in SIDES.items():
         of = table[table["end"] == side]
-        axes.plot(of["smallest_step"], of["distance"], marker, color=colour, mfc="none", label=side)
-    steps = np.sort(table["smallest_step"].unique())
+        axes.plot(of["min_step"], of["distance"], marker, color=colour, mfc="none", label=side)
+    steps = np.sort(table["min_step"].unique())
     for sign in (-1.0, 1.0):
         name = r"$\pm \Delta\gamma_{\rm Th}$" if sign > 0 else None
         axes.plot(steps, sign * steps, "-", color="0.6", lw=0.7, zorder=0, label=name)

@@ -18,14 +18,14 @@ COLUMNS = {
 }
 
 
-def table(close_ups: list[Block], options: Options) -> pd.DataFrame:
+def table(event_details: list[Block], options: Options) -> pd.DataFrame:
     """The displacement, grain by grain, with the columns `COLUMNS`.
 
     Raises:
         ValueError: no sample has the n, phi or kt asked for.
     """
     field = {"event": "event_displacement"}
-    return event_maps.rows(close_ups, options, field, COLUMNS, width=_width)
+    return event_maps.rows(event_details, options, field, COLUMNS, width=_width)
 
 
 def _width(block: Block) -> float:

@@ -29,14 +29,14 @@ COLUMNS = {
 }
 
 
-def table(close_ups: list[Block], options: Options) -> pd.DataFrame:
+def table(event_details: list[Block], options: Options) -> pd.DataFrame:
     """Both eigenvectors, grain by grain, with the columns `COLUMNS`.
 
     Raises:
         ValueError: no sample has the n, phi or kt asked for.
     """
     of = {f"eigenvalue_{side}": _eigenvalue(side) for side in SIDES}
-    found = event_maps.rows(close_ups, options, VARIABLES, COLUMNS, **of)
+    found = event_maps.rows(event_details, options, VARIABLES, COLUMNS, **of)
     fields = [f"{side}_{name}" for side in SIDES for name in COMPONENTS]
     return found.assign(**{name: found[name] * np.sqrt(found["n"]) for name in fields})
 

@@ -22,13 +22,13 @@ COLUMNS = {
 }
 
 
-def table(close_ups: list[Block], options: Options) -> pd.DataFrame:
+def table(event_details: list[Block], options: Options) -> pd.DataFrame:
     """The field in theory and simulation, grain by grain, with the columns `COLUMNS`.
 
     Raises:
         ValueError: no sample has the n, phi or kt asked for.
     """
-    return event_maps.rows(close_ups, options, VARIABLES, COLUMNS, strain_step=_step)
+    return event_maps.rows(event_details, options, VARIABLES, COLUMNS, strain_step=_step)
 
 
 def _step(block: Block) -> float:

@@ -14,7 +14,14 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import appearance
-from grainmodes.figures.shared.close_up_rows import AFTER, BEFORE, SAMPLE, caption, rows, with_event
+from grainmodes.figures.shared.event_detail_rows import (
+    AFTER,
+    BEFORE,
+    SAMPLE,
+    caption,
+    rows,
+    with_event,
+)
 from grainmodes.figures.shared.field_rows import joined
 from grainmodes.figures.shared.selection import Options
 
@@ -43,13 +50,13 @@ VARIABLES = {
 }
 
 
-def table(close_ups: list[Block], options: Options) -> pd.DataFrame:
+def table(event_details: list[Block], options: Options) -> pd.DataFrame:
     """A row per state, strain ascending, with the columns `COLUMNS`.
 
     Raises:
         ValueError: no sample has the n, phi or kt asked for.
     """
-    shown = with_event(close_ups, options, PAPER_N)
+    shown = with_event(event_details, options, PAPER_N)
     return joined((_with_changes(rows(block, VARIABLES)) for block in shown), COLUMNS)
 
 

@@ -18,7 +18,7 @@ from grainmodes.figures.shared.sheared_points import SAMPLE, name_sample, sample
 COLUMNS = SAMPLE | {
     "strain": ("1", "strain γ"),
     "bracketed": (UNIT, "stress (sigma_xy + sigma_yx) / 2, every event bracketed to Δγ_Th"),
-    "unbracketed": (UNIT, "the same of a shear in steps of Δγ_in alone"),
+    "coarse_run": (UNIT, "the same of a shear in steps of Δγ_in alone"),
 }
 
 SAME = 1e-12
@@ -47,7 +47,7 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     rows = rows.iloc[: np.count_nonzero(known)].copy()
     at = np.searchsorted(curve.strain, strain[known] - SAME)
     return rows.assign(
-        strain=strain[known], bracketed=curve.stress[at], unbracketed=stress[known]
+        strain=strain[known], bracketed=curve.stress[at], coarse_run=stress[known]
     ).reset_index(drop=True)
 
 
@@ -57,10 +57,10 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     above.plot(
         table["strain"], table["bracketed"], color=ROTATIONAL, lw=2.4, label="events bracketed"
     )
-    above.plot(table["strain"], table["unbracketed"], color="0.1", lw=0.6, label="in steps alone")
+    above.plot(table["strain"], table["coarse_run"], color="0.1", lw=0.6, label="in steps alone")
     above.set(ylabel=r"$\sigma\,/\,k_N$")
     above.legend()
-    difference = np.abs(table["unbracketed"] - table["bracketed"])
+    difference = np.abs(table["coarse_run"] - table["bracketed"])
     below.semilogy(table["strain"], difference.clip(lower=FLOOR), color="0.3", lw=0.8)
     below.set(xlabel=r"$\gamma$", ylabel=r"difference$\,/\,k_N$")
     figure.align_ylabels()

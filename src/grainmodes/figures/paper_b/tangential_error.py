@@ -10,7 +10,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
-from grainmodes.figures.shared.close_up_rows import SAMPLE, caption, rows
+from grainmodes.figures.shared.event_detail_rows import SAMPLE, caption, rows
 from grainmodes.figures.shared.field_rows import at_kt, at_point, joined
 from grainmodes.figures.shared.selection import Options
 
@@ -35,13 +35,13 @@ CURVES = {
 }
 
 
-def table(close_ups: list[Block], options: Options) -> pd.DataFrame:
+def table(event_details: list[Block], options: Options) -> pd.DataFrame:
     """A row per state of the walk up to the first event, with the columns `COLUMNS`.
 
     Raises:
         ValueError: no sample has the n, phi or kt asked for.
     """
-    having = [b for b in close_ups if b.variables.get("path_count", [0])[0]]
+    having = [b for b in event_details if b.variables.get("path_count", [0])[0]]
     variables = {column: f"path_{column}" for column in list(COLUMNS)[len(SAMPLE) :]}
     shown = at_kt(at_point(having, options, PAPER_N), options)
     return joined((rows(block, variables) for block in shown), COLUMNS)

@@ -18,7 +18,7 @@ from grainmodes.figures.shared.selection import Options
 
 COLUMNS = SAMPLE_COLUMNS | {
     "birth": ("1", "1: a birth, 0: a death"),
-    "of": ("1", "number of the point in its sample"),
+    "point": ("1", "number of the point in its sample"),
     "pair": ("1", "1 where the two are a complex pair"),
     "distance": ("1", "distance |strain - gamma_c| of the state"),
     "difference": (EIGENVALUE, "|lambda_1 - lambda_2|"),
@@ -44,10 +44,10 @@ def table(ensemble, options: Options) -> pd.DataFrame:
 
 def _rows(sample: Sample) -> pd.DataFrame:
     born = sample.points["birth"]
-    near = sample.near[sample.near["of"].isin(born.index)]
+    near = sample.near[sample.near["point"].isin(born.index)]
     return near.assign(
         **sample.place,
-        birth=born.loc[near["of"].astype(int)].to_numpy(),
+        birth=born.loc[near["point"].astype(int)].to_numpy(),
         pair=(near["discriminant"] < 0.0).astype(int),
         distance=near["distance"].abs(),
         difference=np.sqrt(near["discriminant"].abs()),
@@ -70,7 +70,7 @@ def _panel(axes: Axes, rows: pd.DataFrame) -> None:
     axes.set(xscale="log", yscale="log")
     for n, colour, marker in appearance.series(sorted(rows["n"].unique())):
         of_n = rows[rows["n"] == n]
-        for _, of in of_n.groupby(["seed", "of"]):
+        for _, of in of_n.groupby(["seed", "point"]):
             axes.plot(of["distance"], of["difference"], marker + "-", color=colour, **THIN)
         appearance.add_to_legend(axes, f"$N = {n:.0f}$", colour, marker)
     if len(rows):

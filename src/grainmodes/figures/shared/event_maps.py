@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas as pd
 
 from grainmodes.dataset.files import Block
-from grainmodes.figures.shared.close_up_rows import critical_strain, with_event
+from grainmodes.figures.shared.event_detail_rows import critical_strain, with_event
 from grainmodes.figures.shared.field_rows import GRAINS, components, grains, joined
 from grainmodes.figures.shared.selection import Options
 
@@ -16,7 +16,11 @@ COLUMNS = GRAINS | {"critical_strain": ("1", "strain of the event")}
 
 
 def rows(
-    close_ups: list[Block], options: Options, variables: dict[str, str], columns: dict, **scalars
+    event_details: list[Block],
+    options: Options,
+    variables: dict[str, str],
+    columns: dict,
+    **scalars,
 ) -> pd.DataFrame:
     """Every grain of the sample shown, where it is just after the event, with these columns.
 
@@ -28,7 +32,7 @@ def rows(
         ValueError: no sample has the n, phi or kt asked for.
     """
     parts = []
-    for block in with_event(close_ups, options, PAPER_N):
+    for block in with_event(event_details, options, PAPER_N):
         found = grains(block).assign(critical_strain=critical_strain(block))
         for prefix, name in variables.items():
             field = block.variables[name][0]

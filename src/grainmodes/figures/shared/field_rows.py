@@ -1,5 +1,5 @@
 """Rows of the figures of single samples: one per grain, from the files of `grainmodes fields` and
-`grainmodes close-up`."""
+`grainmodes event-detail`."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ GRAINS = {
 }
 """Columns that say which grain a row is about."""
 
-NAMES = {"fields": "fields", "close_up": "close-ups", "release": "releases"}
+NAMES = {"fields": "fields", "event_detail": "event details", "release": "releases"}
 """Stages that keep the grains of samples, and what their files hold."""
 
 COMPONENTS = ("x", "y", "rotation")

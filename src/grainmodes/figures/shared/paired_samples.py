@@ -47,7 +47,7 @@ def with_paths(ensemble) -> list[Sample]:
 
 def longest_pair(sample: Sample) -> pd.DataFrame:
     """The path of the point whose modes are real before and after, and longest a pair between."""
-    paths = [path for _, path in sample.path.groupby("of")]
+    paths = [path for _, path in sample.path.groupby("point")]
     return max(paths, key=lambda path: (_between(path), (path["imaginary"] > 0.0).sum()))
 
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import appearance
-from grainmodes.figures.shared.close_up_rows import SAMPLE
+from grainmodes.figures.shared.event_detail_rows import SAMPLE
 from grainmodes.figures.shared.field_rows import at_kt, at_point
 from grainmodes.figures.shared.selection import Options, first_or
 

@@ -26,15 +26,15 @@ class Options:
     `n`, `phi`: the value shown by figures that show one; None is the largest of the ensemble.
     `kt`: the values of k_T/k_N to show; None is the figure's own choice.
     `seed`: the sample shown by figures that show one; None is the first.
-    `fineness`: factor on the numbers of linear bins of A's spectra (500 and 100), below 1 where an
-    ensemble has too few modes for them; None is the choice of the study. Spectra that were counted
-    in bins keep these.
+    `bin_density`: factor on the numbers of linear bins of A's spectra (500 and 100), below 1 where
+    an ensemble has too few modes for them; None is the choice of the study. Spectra that were
+    counted in bins keep these.
     """
 
     n: int | None = None
     phi: float | None = None
     kt: tuple[float, ...] | None = None
-    fineness: float | None = None
+    bin_density: float | None = None
     seed: int | None = None
 
     @classmethod
@@ -42,7 +42,7 @@ class Options:
         """Options from a dictionary.
 
         Raises:
-            ValueError: a key is unknown, or `fineness` is not in (0, 1].
+            ValueError: a key is unknown, or `bin_density` is not in (0, 1].
         """
         known = [field.name for field in fields(cls)]
         unknown = [key for key in given if key not in known]
@@ -52,9 +52,9 @@ class Options:
                 f"expected one of {', '.join(known)}"
             )
         options = cls(**given)
-        if options.fineness is not None and not 0.0 < options.fineness <= 1.0:
+        if options.bin_density is not None and not 0.0 < options.bin_density <= 1.0:
             raise ValueError(
-                f"figure {figure}: expected a fineness in (0, 1], got {options.fineness}"
+                f"figure {figure}: expected a bin_density in (0, 1], got {options.bin_density}"
             )
         return options
 

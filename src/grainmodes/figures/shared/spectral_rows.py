@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from grainmodes.ensemble import fineness
+from grainmodes.ensemble import bin_density
 from grainmodes.ensemble.spectra import shared_edges, spectrum
 from grainmodes.figures.shared.selection import Options
 from grainmodes.statistics import averages, binning
@@ -63,7 +63,7 @@ def compared(ensemble, options: Options, kinds: dict[str, tuple[Point, str]]) ->
     """
     spectra = {kind: spectrum(ensemble, *point, ending) for kind, (point, ending) in kinds.items()}
     kappa = max(point[-1] for point, _ in kinds.values())
-    chosen = fineness(ensemble) if options.fineness is None else options.fineness
+    chosen = bin_density(ensemble) if options.bin_density is None else options.bin_density
     edges = shared_edges(list(spectra.values()), kappa, chosen)
     parts = [of_bins(of.in_bins(edges), kinds[kind][0], kind) for kind, of in spectra.items()]
     return stacked(parts)

@@ -59,9 +59,9 @@ class ByWindows:
 
 
 DETECTORS: dict[str, type[Detector]] = {
-    "carried": Carried,
+    "continuation": Carried,
     "dense": ByLapack,
-    "windows": ByWindows,
+    "discs": ByWindows,
 }
 """How pairs are found, by the name of the choice."""
 

@@ -24,7 +24,7 @@ import numpy as np
 from grainmodes.complex_pairs.definition import Loaded, translations
 from grainmodes.complex_pairs.matching import matched
 from grainmodes.packing.state import Packing
-from grainmodes.parameters.pairs import PairChoices
+from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.detection import DETECTORS, Detector, Seen, seen_by
 from grainmodes.protocols.pair_tracking.exceptional_points import (
@@ -151,7 +151,7 @@ class PairWalk:
         """Look at a birth or death closely, if it is one of the first."""
         born = other.packing.strain < seen.strain
         known = sum(one.born == born for one in self.located)
-        if jumped or known >= self.asked.located:
+        if jumped or known >= self.asked.max_located:
             return
         pair = seen.side(place)
         try:

@@ -74,7 +74,7 @@ class Run:
         Raises:
             ArithmeticError: it would take more than `choices.max_steps` steps.
         """
-        motion = Motion(start.packing, start.kick(choices.kick), 0, np.inf)
+        motion = Motion(start.packing, start.kick(choices.initial_velocity), 0, np.inf)
         run = cls(start, interaction, choices, drag, motion)
         if run.last > choices.max_steps:
             raise ArithmeticError(
@@ -87,7 +87,7 @@ class Run:
     @property
     def last(self) -> int:
         """The step with which it ends."""
-        return self._later * self.choices.records
+        return self._later * self.choices.n_records
 
     @property
     def done(self) -> bool:
@@ -116,16 +116,16 @@ class Run:
     def _interval(self) -> int:
         """Steps between two even looks during the growth."""
         whole = self.choices.duration / (self.start.rate * self.choices.time_step)
-        return max(1, round(whole / self.choices.records))
+        return max(1, round(whole / self.choices.n_records))
 
     @property
     def _later(self) -> int:
         """The same from then on, a multiple of them."""
-        least = 0.0 if self.drag else self.choices.least_time / self.choices.time_step
-        return self._interval * max(1, math.ceil(least / (self._interval * self.choices.records)))
+        least = 0.0 if self.drag else self.choices.min_time / self.choices.time_step
+        return self._interval * max(1, math.ceil(least / (self._interval * self.choices.n_records)))
 
     def _next(self) -> int:
-        growing = self.steps < self._interval * self.choices.records
+        growing = self.steps < self._interval * self.choices.n_records
         interval = self._interval if growing else self._later
         even = (self.steps // interval + 1) * interval
         return min([even, self.steps + max(1, self.steps // 10), *(self.close or [])[:1]])
@@ -145,7 +145,7 @@ class Run:
             self.spectra.append((self.steps, found))
 
     def _wants_spectrum(self) -> bool:
-        every = self._later * max(1, self.choices.records // max(self.choices.spectra, 1))
+        every = self._later * max(1, self.choices.n_records // max(self.choices.spectra, 1))
         asked = self.choices.spectra > 0 and not self.drag
         return asked and 3 * self.start.packing.n <= MOST_FOR_SPECTRA and self.steps % every == 0
 

@@ -54,7 +54,7 @@ def states_around(bracket: Bracket, choices: Shear) -> list[Near]:
 
 def distances_of(choices: Shear) -> list[float]:
     """δ, ascending."""
-    count = round(np.log10(choices.step / choices.smallest_step))
+    count = round(np.log10(choices.step / choices.min_step))
     return [choices.step / 10**k for k in range(count, -1, -1)]
 
 
@@ -76,7 +76,7 @@ def _branch(end: State, distances: list[float], origin: float, choices: Shear) -
 
 def _at(strain: float, before: State, choices: Shear) -> State:
     balance, jumped = step_to(strain, before.balance, choices)
-    units = round(strain / choices.smallest_step)
+    units = round(strain / choices.min_step)
     return State(balance, units, choices.loaded, jumped)
 
 

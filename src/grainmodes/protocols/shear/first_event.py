@@ -32,7 +32,7 @@ class Bracket:
     Without an event `before` is where the walk ended.
     """
 
-    smallest_step: float
+    min_step: float
     before: State
     curve: list[Point]
     event: Event | None = None
@@ -41,7 +41,7 @@ class Bracket:
 
 def closer(choices: Shear) -> list[Shear]:
     """The same shear with every Δγ_Th, the largest first."""
-    return [replace(choices, smallest_step=choices.step / 10**k) for k in range(DECADES)]
+    return [replace(choices, min_step=choices.step / 10**k) for k in range(DECADES)]
 
 
 def steps(walk: Walk) -> Iterator[tuple[State, State]]:
@@ -75,7 +75,7 @@ def brackets(packing: Packing, interaction, choices: Shear) -> list[Bracket]:
 def bracket_ends(found: list[Bracket]) -> dict[str, list[float]]:
     """Both sides of the first event in every bracket; NaN where there is no event."""
     return {
-        "bracket_smallest_step": [b.smallest_step for b in found],
+        "bracket_min_step": [b.min_step for b in found],
         "bracket_strain_before": [b.before.strain if b.event else np.nan for b in found],
         "bracket_strain_after": [b.after.strain if b.event else np.nan for b in found],
     }
@@ -88,8 +88,8 @@ def bracketed(walk: Walk) -> Bracket:
             event, width = walk.events[0], AROUND * walk.choices.step
             _go_on(walk, after.strain + width)
             curve = [p for p in walk.curve if abs(p.strain - after.strain) < 1.001 * width]
-            return Bracket(walk.choices.smallest_step, before, curve, event, after)
-    return Bracket(walk.choices.smallest_step, walk.now, walk.curve[-1:])
+            return Bracket(walk.choices.min_step, before, curve, event, after)
+    return Bracket(walk.choices.min_step, walk.now, walk.curve[-1:])
 
 
 def _go_on(walk: Walk, strain: float) -> None:

@@ -57,7 +57,7 @@ class Oscillation(NamedTuple):
 
 def beside_threshold(contacts: Contacts, side: float) -> Contacts:
     """The contacts with springs a little longer (`SLIPPING`) or shorter (`STICKING`)."""
-    return replace(contacts, tangential_displacement=(1.0 + side * EDGE) * contacts.displacement)
+    return replace(contacts, spring_state=(1.0 + side * EDGE) * contacts.displacement)
 
 
 def slipping_contacts(contacts: Contacts, interaction: Interaction) -> np.ndarray:

@@ -57,7 +57,7 @@ class Walk:
             ArithmeticError: the packing has no stable balance.
         """
         balance = first_balance(packing, interaction, choices)
-        now = State(balance, round(packing.strain / choices.smallest_step), choices.loaded)
+        now = State(balance, round(packing.strain / choices.min_step), choices.loaded)
         walk = cls(now, choices, steps_per_grid(choices))
         walk.curve.append(walk._point())
         return walk
@@ -74,7 +74,7 @@ class Walk:
 
     @property
     def _last(self) -> int:
-        return round(self.choices.strain / self.choices.smallest_step)
+        return round(self.choices.strain / self.choices.min_step)
 
     def advance(self) -> bool:
         """Try the next step: take it, or try a shorter one next time; False if there is none.
@@ -100,7 +100,7 @@ class Walk:
 
     def _stepped(self, size: int) -> State:
         units = self.now.units + size
-        strain = units * self.choices.smallest_step
+        strain = units * self.choices.min_step
         balance, by_dynamics = step_to(strain, self.now.balance, self.choices)
         return State(
             balance, units, self.choices.loaded, by_dynamics, self.now.response.displacement
@@ -132,7 +132,7 @@ def kind_of(before: State, after: State) -> int:
 
 def steps_per_grid(choices: Shear) -> int:
     """Δγ_in in units of Δγ_Th."""
-    return round(choices.step / choices.smallest_step)
+    return round(choices.step / choices.min_step)
 
 
 def largest_power_of_ten_below(size: int) -> int:

@@ -163,7 +163,7 @@ def reopened(before: Packing, after: Packing, interaction: Interaction) -> int:
     along = np.einsum("ca,ca->c", slip[:, :2], contacts.tangent[both])
     nothing, one = np.zeros(len(s)), np.ones(len(s))
     weight = advanced_displacement(interaction, contacts.overlap[both], nothing, one)
-    had = old.tangential_displacement[known]
+    had = old.spring_state[known]
     missing = np.abs(s - had - weight * (along + moved[i, 2] + moved[j, 2]))
     square = weight * (np.abs(moved[i]) + np.abs(moved[j])).sum(axis=1) ** 2
     return int(np.count_nonzero((missing > 0.5 * np.abs(had)) & (missing > CURVED * square)))

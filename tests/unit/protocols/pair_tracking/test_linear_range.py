@@ -138,5 +138,5 @@ def test_a_release_changes_its_contacts_where_linear_theory_says():
     """Within a factor of three of M: it is looked at now and then, and M swings."""
     start, _, _ = state()
     expected = rooms(balance(), start.mode[:, :, None])[0]
-    fate = fate_of(released(Release(duration=22.0, least_time=0.0, records=2000, spectra=0)))
+    fate = fate_of(released(Release(duration=22.0, min_time=0.0, n_records=2000, spectra=0)))
     assert expected / 3.0 < fate.change.square < 3.0 * expected

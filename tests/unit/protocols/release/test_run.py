@@ -191,7 +191,9 @@ def test_growth_and_frequency_are_those_of_the_pair_to_order_dt_squared(quantity
 
 def test_round_off_alone_grows_alike():
     start, _, _ = state()
-    run = released(Release(kick=0.0, duration=26.0, least_time=0.0, records=900, spectra=0))
+    run = released(
+        Release(initial_velocity=0.0, duration=26.0, min_time=0.0, n_records=900, spectra=0)
+    )
     assert series(run, "mean_square_displacement")[:30].max() < 1e-29
     used = window(run)
     law = fitted(
@@ -300,7 +302,7 @@ def test_a_state_that_leaves_too_slowly_is_refused():
 
 
 def test_only_a_run_without_damping_goes_on_to_the_end_of_its_plateau():
-    choices = Release(duration=0.05, least_time=400.0, records=10, spectra=5)
+    choices = Release(duration=0.05, min_time=400.0, n_records=10, spectra=5)
     free, damped = released(choices), released(choices, 0.1 * state()[0].rate)
     growth = choices.duration / state()[0].rate
     assert series(damped, "time")[-1] == pytest.approx(growth, rel=0.02)

@@ -9,9 +9,9 @@ from __future__ import annotations
 from grainmodes.dataset.variable import BLOCK, MODULUS, Variable
 
 STATE = ("seed", "pair_state")
-LIFE = ("seed", "life")
-LOCATED = ("seed", "located")
-NEAR = ("seed", "exceptional_state")
+LIFE = ("seed", "track")
+LOCATED = ("seed", "exceptional_point")
+NEAR = ("seed", "neighbour_state")
 PATH = ("seed", "followed_state")
 PRODUCT = ("seed", "product")
 CONTACT = ("seed", "contact")
@@ -33,46 +33,48 @@ NAMES = {
     "pair_condition": Variable(STATE, "f8", "1", "condition of its eigenvalue; NaN: none"),
     "pair_dense": Variable(STATE, "i1", "1", "1 if LAPACK solved this state"),
     # the pairs
-    "life_count": Variable(BLOCK, "i8", "1", "number of complex pairs that were born"),
-    "life_birth_before": Variable(LIFE, "f8", "1", "strain before the birth of a pair; NaN: none"),
-    "life_birth_after": Variable(LIFE, "f8", "1", "strain after the birth of a pair"),
-    "life_birth_kind": Variable(LIFE, "i1", "1", f"what its birth was; {KIND}"),
-    "life_death_before": Variable(LIFE, "f8", "1", "strain before its death; NaN: it lives"),
-    "life_death_after": Variable(LIFE, "f8", "1", "strain after its death; NaN: it lives"),
-    "life_death_kind": Variable(LIFE, "i1", "1", f"what its death was; {KIND}"),
-    "life_growth": Variable(LIFE, "f8", RATE, "largest growth rate omega_i of its states"),
+    "track_count": Variable(BLOCK, "i8", "1", "number of complex pairs that were born"),
+    "track_birth_before": Variable(LIFE, "f8", "1", "strain before the birth of a pair; NaN: none"),
+    "track_birth_after": Variable(LIFE, "f8", "1", "strain after the birth of a pair"),
+    "track_birth_kind": Variable(LIFE, "i1", "1", f"what its birth was; {KIND}"),
+    "track_death_before": Variable(LIFE, "f8", "1", "strain before its death; NaN: it lives"),
+    "track_death_after": Variable(LIFE, "f8", "1", "strain after its death; NaN: it lives"),
+    "track_death_kind": Variable(LIFE, "i1", "1", f"what its death was; {KIND}"),
+    "track_growth": Variable(LIFE, "f8", RATE, "largest growth rate omega_i of its states"),
     # exceptional points
-    "located_count": Variable(BLOCK, "i8", "1", "number of births and deaths that were located"),
-    "located_life": Variable(LOCATED, "i4", "1", "number of the pair; -1: none"),
-    "located_birth": Variable(LOCATED, "i1", "1", "1: a birth; 0: a death"),
-    "located_kind": Variable(LOCATED, "i1", "1", f"what it was; {KIND}"),
-    "located_before": Variable(LOCATED, "f8", "1", "lower end of its bracket; NaN: none"),
-    "located_after": Variable(LOCATED, "f8", "1", "upper end of its bracket"),
-    "located_strain": Variable(
+    "exceptional_point_count": Variable(
+        BLOCK, "i8", "1", "number of births and deaths that were located"
+    ),
+    "exceptional_point_track": Variable(LOCATED, "i4", "1", "number of the pair; -1: none"),
+    "exceptional_point_birth": Variable(LOCATED, "i1", "1", "1: a birth; 0: a death"),
+    "exceptional_point_kind": Variable(LOCATED, "i1", "1", f"what it was; {KIND}"),
+    "exceptional_point_before": Variable(LOCATED, "f8", "1", "lower end of its bracket; NaN: none"),
+    "exceptional_point_after": Variable(LOCATED, "f8", "1", "upper end of its bracket"),
+    "exceptional_point_strain": Variable(
         LOCATED, "f8", "1", "gamma_c: where (lambda_1 - lambda_2)^2 is 0; else the middle"
     ),
-    "located_exponent_real": Variable(
+    "exceptional_point_exponent_real": Variable(
         LOCATED, "f8", "1", "exponent of |lambda_1 - lambda_2| where both are real; NaN: not fitted"
     ),
-    "located_exponent_real_error": Variable(LOCATED, "f8", "1", "its standard error"),
-    "located_exponent_pair": Variable(
+    "exceptional_point_exponent_real_error": Variable(LOCATED, "f8", "1", "its standard error"),
+    "exceptional_point_exponent_pair": Variable(
         LOCATED, "f8", "1", "exponent of |lambda_1 - lambda_2| where they are a pair"
     ),
-    "located_exponent_pair_error": Variable(LOCATED, "f8", "1", "its standard error"),
+    "exceptional_point_exponent_pair_error": Variable(LOCATED, "f8", "1", "its standard error"),
     # states around them
-    "exceptional_of": Variable(NEAR, "i4", "1", "number of the located point; -1: none"),
-    "exceptional_distance": Variable(NEAR, "f8", "1", "strain - gamma_c of a state; NaN: none"),
-    "exceptional_sum": Variable(NEAR, "f8", EIGENVALUE, "lambda_1 + lambda_2 there"),
-    "exceptional_discriminant": Variable(
+    "neighbour_point": Variable(NEAR, "i4", "1", "number of the located point; -1: none"),
+    "neighbour_distance": Variable(NEAR, "f8", "1", "strain - gamma_c of a state; NaN: none"),
+    "neighbour_sum": Variable(NEAR, "f8", EIGENVALUE, "lambda_1 + lambda_2 there"),
+    "neighbour_discriminant": Variable(
         NEAR, "f8", f"({EIGENVALUE})^2", "(lambda_1 - lambda_2)^2 there, below 0 for a pair"
     ),
-    "exceptional_product": Variable(NEAR, "f8", "1", "scalar product of the two eigenvectors"),
-    "exceptional_condition": Variable(NEAR, "f8", "1", "condition of the two eigenvalues"),
-    "exceptional_residual": Variable(
+    "neighbour_product": Variable(NEAR, "f8", "1", "scalar product of the two eigenvectors"),
+    "neighbour_condition": Variable(NEAR, "f8", "1", "condition of the two eigenvalues"),
+    "neighbour_residual": Variable(
         NEAR, "f8", "1", "residual of their plane, in units of the largest entry of J / M"
     ),
     # the two modes along the walk
-    "followed_of": Variable(PATH, "i4", "1", "number of the located point; -1: none"),
+    "followed_point": Variable(PATH, "i4", "1", "number of the located point; -1: none"),
     "followed_strain": Variable(PATH, "f8", "1", "strain of a state; NaN: none"),
     "followed_real_1": Variable(PATH, "f8", EIGENVALUE, "real part of lambda_1"),
     "followed_real_2": Variable(PATH, "f8", EIGENVALUE, "real part of lambda_2"),
@@ -91,14 +93,14 @@ NAMES = {
     "unstable_rotation": Variable(("seed", "grain"), "f8", "d", "rotation l in that state"),
     "unstable_contact_i": Variable(CONTACT, "i4", "1", "grain i of a contact; -1: none"),
     "unstable_contact_j": Variable(CONTACT, "i4", "1", "grain j of a contact; -1: none"),
-    "unstable_slip": Variable(CONTACT, "f8", "d", "tangential displacement of a contact"),
+    "unstable_spring_state": Variable(CONTACT, "f8", "d", "tangential displacement of a contact"),
     "unstable_eigenvalue_real": Variable(BLOCK, "f8", EIGENVALUE, "lambda_r of this pair"),
     "unstable_eigenvalue_imag": Variable(BLOCK, "f8", EIGENVALUE, "lambda_i of this pair"),
     "unstable_condition": Variable(BLOCK, "f8", "1", "condition of this eigenvalue"),
     "unstable_residual": Variable(
         BLOCK, "f8", "1", "residual of the pair's plane, in units of the largest entry of J / M"
     ),
-    "unstable_room": Variable(
+    "unstable_linear_range": Variable(
         BLOCK, "f8", "d^2", "M at which its linear growth changes the contacts first"
     ),
     "unstable_mode_real": Variable(

@@ -5,7 +5,7 @@ import pytest
 
 import synthetic
 from grainmodes.ensemble import open_ensemble
-from grainmodes.figures.paper_c import pair_variants
+from grainmodes.figures.paper_c import law_comparison
 from grainmodes.figures.shared.selection import Options
 from grainmodes.parameters.law import TANGENTIAL_LAWS
 
@@ -13,17 +13,17 @@ from grainmodes.parameters.law import TANGENTIAL_LAWS
 @pytest.fixture(scope="module")
 def table(tmp_path_factory):
     """Three samples of two points, one of them not jammed."""
-    stages = ("packings", "variants")
-    folder = tmp_path_factory.mktemp("variants")
+    stages = ("packings", "law_comparison")
+    folder = tmp_path_factory.mktemp("law_comparison")
     path = synthetic.ensemble(folder, phis=(0.83, 0.9), kts=(1.0,), seeds=3, stages=stages)
     with open_ensemble(path) as dataset:
-        yield pair_variants.table(dataset, Options())
+        yield law_comparison.table(dataset, Options())
 
 
 def test_pairs_are_means_over_the_samples(table):
     rows = table[table["kind"] == "pairs"]
-    assert list(table.columns) == list(pair_variants.COLUMNS)
-    assert set(rows["tangential"]) == set(TANGENTIAL_LAWS) == set(pair_variants.WORDS)
+    assert list(table.columns) == list(law_comparison.COLUMNS)
+    assert set(rows["tangential"]) == set(TANGENTIAL_LAWS) == set(law_comparison.WORDS)
     assert set(rows["phi"]) == {0.9} and set(rows["samples"]) == {3}
     sharp = rows[rows["tangential"] == "sharp_coulomb"]
     np.testing.assert_allclose(sharp["strain"], np.arange(1, 6) * 1e-3)

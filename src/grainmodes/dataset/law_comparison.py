@@ -5,7 +5,7 @@ from __future__ import annotations
 from grainmodes.dataset.variable import BLOCK, Variable
 from grainmodes.parameters.law import TANGENTIAL_LAWS
 
-STATE = ("seed", "variant_state")
+STATE = ("seed", "comparison_state")
 
 SEEN = {
     "pairs_slipping": ("1", "complex pairs of J / M, springs at their threshold slipping"),
@@ -17,10 +17,14 @@ SEEN = {
 """What is seen in a state → its unit and meaning."""
 
 NAMES = {
-    "variant_count": Variable(BLOCK, "i8", "1", "number of states under several tangential laws"),
-    "variant_strain": Variable(STATE, "f8", "1", "strain of a state that all laws are looked at"),
+    "comparison_count": Variable(
+        BLOCK, "i8", "1", "number of states under several tangential laws"
+    ),
+    "comparison_strain": Variable(
+        STATE, "f8", "1", "strain of a state that all laws are looked at"
+    ),
     **{
-        f"variant_{number}_{law}": Variable(STATE, "f8", unit, f"{meaning}; law {law}")
+        f"comparison_{number}_{law}": Variable(STATE, "f8", unit, f"{meaning}; law {law}")
         for law in TANGENTIAL_LAWS
         for number, (unit, meaning) in SEEN.items()
     },

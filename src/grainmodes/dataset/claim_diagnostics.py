@@ -5,9 +5,11 @@ from __future__ import annotations
 from grainmodes.dataset.variable import BLOCK, MODULUS, Variable
 
 NAMES = {
-    "probe_strain": Variable(("seed", "probe"), "f8", "1", "step strains of g_forward_by_strain"),
+    "diagnostic_strain": Variable(
+        ("seed", "diagnostic"), "f8", "1", "step strains of g_forward_by_strain"
+    ),
     "g_forward_by_strain": Variable(
-        ("seed", "probe"), "f8", MODULUS, "rigidity from one forward step strain of each size"
+        ("seed", "diagnostic"), "f8", MODULUS, "rigidity from one forward step strain of each size"
     ),
     "g_translational": Variable(
         BLOCK, "f8", MODULUS, "g as a sum over the modes with psi^R < 1/2 alone"

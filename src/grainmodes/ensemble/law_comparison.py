@@ -15,19 +15,19 @@ if TYPE_CHECKING:
 NUMBERS = ("pairs_slipping", "pairs_sticking", "rate", "growth")
 
 
-def points_with_variants(ensemble: xr.Dataset) -> list[tuple[int, float, float]]:
+def points_with_comparison(ensemble: xr.Dataset) -> list[tuple[int, float, float]]:
     """(n, phi, kt) at which a jammed sample was sheared, ascending.
 
     Raises:
         BlockError: the ensemble holds no variants.
     """
-    states = variable(ensemble, "variant_count").max("seed")
+    states = variable(ensemble, "comparison_count").max("seed")
     axes = [states[name].to_numpy().tolist() for name in ("n", "phi", "kt")]
     places = zip(*np.nonzero(states.to_numpy() > 0), strict=True)
     return [tuple(axis[k] for axis, k in zip(axes, place, strict=True)) for place in places]
 
 
-def variants_at(
+def comparison_at(
     ensemble: xr.Dataset, n: int, phi: float, kt: float
 ) -> tuple[np.ndarray, dict[str, dict[str, np.ndarray]]]:
     """The strains (M,), and law → number of `NUMBERS` → (S, M) of a point; NaN: not known.
@@ -35,12 +35,12 @@ def variants_at(
     Raises:
         BlockError: the ensemble holds no variants.
     """
-    point = variable(ensemble, "variant_strain").sel(n=n, phi=phi, kt=kt).to_numpy()
+    point = variable(ensemble, "comparison_strain").sel(n=n, phi=phi, kt=kt).to_numpy()
     used = np.isfinite(point).any(axis=1)
     strain = np.nanmax(point[used], axis=0)
     found = {}
     for law in TANGENTIAL_LAWS:
-        rows = (variable(ensemble, f"variant_{number}_{law}") for number in NUMBERS)
+        rows = (variable(ensemble, f"comparison_{number}_{law}") for number in NUMBERS)
         of = (row.sel(n=n, phi=phi, kt=kt).to_numpy()[used] for row in rows)
         found[law] = dict(zip(NUMBERS, of, strict=True))
     return strain, found

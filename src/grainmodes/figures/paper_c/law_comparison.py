@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.ensemble import normal_law
-from grainmodes.ensemble.variants import points_with_variants, variants_at
+from grainmodes.ensemble.law_comparison import comparison_at, points_with_comparison
 from grainmodes.figures.shared import appearance
 from grainmodes.figures.shared.selection import Options
 from grainmodes.figures.shared.sheared_points import POINT, shown
@@ -52,11 +52,11 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         BlockError: the ensemble holds no variants.
         ValueError: there are none at the n, phi or kt asked for.
     """
-    found = points_with_variants(ensemble)
+    found = points_with_comparison(ensemble)
     if not found:
         return pd.DataFrame(columns=list(COLUMNS))
     point = shown(found, options)
-    strain, laws = variants_at(ensemble, **point)
+    strain, laws = comparison_at(ensemble, **point)
     parts = [_pairs(law, strain, of) for law, of in laws.items()]
     parts += [_released(law, strain, of) for law, of in laws.items()]
     rows = pd.concat([part for part in parts if len(part)], ignore_index=True)

@@ -17,8 +17,8 @@ from grainmodes.complex_pairs.plane import plane_near
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import interaction
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
+from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, Side
 from grainmodes.protocols.pair_tracking.linear_range import Chosen
@@ -28,7 +28,9 @@ from grainmodes.stages.rows import response_block
 from grainmodes.stages.samples import jammed_packing
 
 
-def pairs_block(packings: Block, law: ContactLaw, shear: Shear, asked: PairChoices) -> Block:
+def complex_pairs_block(
+    packings: Block, law: ContactLaw, shear: Shear, asked: PairChoices
+) -> Block:
     """The complex pairs of every packing up to the last strain of `shear`."""
     rule = interaction(law)
 
@@ -41,11 +43,11 @@ def pairs_block(packings: Block, law: ContactLaw, shear: Shear, asked: PairChoic
         return row_of(walk) | ({} if walk.done else {"failure": ending})
 
     used = {name: value for name, value in asdict(shear).items() if name not in NOT_USED}
-    config = {"law": asdict(law), "shear": used, "pairs": asdict(asked)}
-    return response_block(packings, "pairs", config, law, sample)
+    config = {"law": asdict(law), "shear": used, "complex_pairs": asdict(asked)}
+    return response_block(packings, "complex_pairs", config, law, sample)
 
 
-NOT_USED = ("smallest_step", "lowest_eigenvalue")
+NOT_USED = ("min_step", "lowest_eigenvalue")
 """Choices of a shear that this stage does not follow."""
 
 
@@ -90,34 +92,34 @@ def _states(walk: PairWalk) -> dict[str, object]:
 
 
 def _lives(lives: list[Life]) -> dict[str, object]:
-    row: dict[str, object] = {"life_count": len(lives)}
+    row: dict[str, object] = {"track_count": len(lives)}
     if not lives:
         return row
     for event in ("birth", "death"):
         ends = np.array([getattr(life, event) for life in lives])
-        row |= {f"life_{event}_before": ends[:, 0], f"life_{event}_after": ends[:, 1]}
-        row[f"life_{event}_kind"] = [getattr(life, f"{event}_kind") for life in lives]
-    return row | {"life_growth": [life.largest for life in lives]}
+        row |= {f"track_{event}_before": ends[:, 0], f"track_{event}_after": ends[:, 1]}
+        row[f"track_{event}_kind"] = [getattr(life, f"{event}_kind") for life in lives]
+    return row | {"track_growth": [life.largest for life in lives]}
 
 
 def _located(walk: PairWalk) -> dict[str, object]:
     """The exceptional points, and the two modes near them and along the walk."""
-    row: dict[str, object] = {"located_count": len(walk.located)}
+    row: dict[str, object] = {"exceptional_point_count": len(walk.located)}
     if not walk.located:
         return row
     points = [one.point for one in walk.located]
     row |= {
-        "located_life": [one.life for one in walk.located],
-        "located_birth": [one.born for one in walk.located],
-        "located_kind": [point.kind for point in points],
-        "located_before": [point.below for point in points],
-        "located_after": [point.above for point in points],
-        "located_strain": [point.strain for point in points],
+        "exceptional_point_track": [one.life for one in walk.located],
+        "exceptional_point_birth": [one.born for one in walk.located],
+        "exceptional_point_kind": [point.kind for point in points],
+        "exceptional_point_before": [point.below for point in points],
+        "exceptional_point_after": [point.above for point in points],
+        "exceptional_point_strain": [point.strain for point in points],
     }
     for name, real in (("real", True), ("pair", False)):
         exponents = [point.exponent(real) for point in points]
-        row[f"located_exponent_{name}"] = [exponent.value for exponent in exponents]
-        row[f"located_exponent_{name}_error"] = [exponent.error for exponent in exponents]
+        row[f"exceptional_point_exponent_{name}"] = [exponent.value for exponent in exponents]
+        row[f"exceptional_point_exponent_{name}_error"] = [exponent.error for exponent in exponents]
     return row | _near(walk.located) | _followed(walk) | _products(walk)
 
 
@@ -129,8 +131,8 @@ def _near(located: Sequence[Located]) -> dict[str, object]:
         for plane in [near.plane]
         for error in [plane.residual]
     ]
-    names = ("of", "distance", "sum", "discriminant", "product", "condition", "residual")
-    return _columns("exceptional", names, rows)
+    names = ("point", "distance", "sum", "discriminant", "product", "condition", "residual")
+    return _columns("neighbour", names, rows)
 
 
 def _followed(walk: PairWalk) -> dict[str, object]:
@@ -138,9 +140,9 @@ def _followed(walk: PairWalk) -> dict[str, object]:
         (place, side.strain, *_two(side))
         for place, one in enumerate(walk.located)
         if one.point.kind == COALESCENCE
-        for side in path_of(one.pair, walk.states, walk.asked.around)
+        for side in path_of(one.pair, walk.states, walk.asked.track_beyond)
     ]
-    names = ("of", "strain", "real_1", "real_2", "imaginary", "product")
+    names = ("point", "strain", "real_1", "real_2", "imaginary", "product")
     return _columns("followed", names, rows)
 
 
@@ -183,12 +185,12 @@ def _unstable(unstable: Chosen | None) -> dict[str, object]:
         "unstable_rotation": packing.rotation,
         "unstable_contact_i": packing.history.i,
         "unstable_contact_j": packing.history.j,
-        "unstable_slip": packing.history.tangential_displacement,
+        "unstable_spring_state": packing.history.spring_state,
         "unstable_eigenvalue_real": plane.values[0].real,
         "unstable_eigenvalue_imag": plane.values[0].imag,
         "unstable_condition": plane.condition,
         "unstable_residual": plane.residual,
-        "unstable_room": unstable.room,
+        "unstable_linear_range": unstable.room,
         "unstable_mode_real": mode.real,
         "unstable_mode_imag": mode.imag,
     }

@@ -1,9 +1,9 @@
 """Claims of paper C on other contact laws: C8 and C9, of harmonic grains.
 
 symbol    name                                                              paper C
-λ pairs   variant_pairs_slipping, variant_pairs_sticking, by law            Sec. VIII
-ω_i       variant_rate, by law                                              (12)
-growth    variant_growth of the released state, over ω_i                    (13), Fig. 12(b)
+λ pairs   comparison_pairs_slipping, comparison_pairs_sticking, by law            Sec. VIII
+ω_i       comparison_rate, by law                                              (12)
+growth    comparison_growth of the released state, over ω_i                    (13), Fig. 12(b)
 
 At Coulomb's threshold a sharp spring slips one way and sticks the other, and J has a limit on
 either side. C counts no slip there ("the Hamiltonian remains valid"), which is the sticking side.
@@ -85,8 +85,8 @@ def _harmonic(ensemble, law: str) -> tuple[Samples, list[tuple[float, float]]]:
     Raises:
         NotAsked: the ensemble lacks the numbers, or its grains are not harmonic.
     """
-    name = f"variant_pairs_slipping_{law}"
-    samples = richest(ensemble, name, f"variant_rate_{law}")
+    name = f"comparison_pairs_slipping_{law}"
+    samples = richest(ensemble, name, f"comparison_rate_{law}")
     if normal_law(ensemble) != "harmonic":
         raise NotAsked("harmonic grains")
     return samples, samples.points(name)
@@ -94,8 +94,8 @@ def _harmonic(ensemble, law: str) -> tuple[Samples, list[tuple[float, float]]]:
 
 def _of(samples: Samples, number: str, law: str, point: tuple[float, float]) -> np.ndarray:
     """A number of the states of every jammed sample, (S, states); rows without any left out."""
-    of = samples.of(f"variant_{number}_{law}", *point)
-    return of[np.isfinite(samples.of(f"variant_rate_{law}", *point)).any(axis=1)]
+    of = samples.of(f"comparison_{number}_{law}", *point)
+    return of[np.isfinite(samples.of(f"comparison_rate_{law}", *point)).any(axis=1)]
 
 
 def _born(pairs: np.ndarray) -> np.ndarray:

@@ -14,17 +14,17 @@ from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.mass_weighted import generalized_mass
 from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.pairs import PairChoices
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, NEVER
-from grainmodes.stages.pairs import pairs_block
+from grainmodes.stages.complex_pairs import complex_pairs_block
 from grainmodes.stages.rows import block_of
 from grainmodes.stages.samples import packed
 
 LAW = ContactLaw("hertz", "smoothed_coulomb", 2 / 7, 10.0)
 SHEAR = Shear(strain=0.01, step=2e-4, force_tolerance=5e-14)
-ASKED = PairChoices(located=2, around=5, jacobian=True)
+ASKED = PairChoices(max_located=2, track_beyond=5, jacobian=True)
 
 
 def packings(*some: Packing) -> Block:
@@ -43,7 +43,7 @@ def packing() -> Packing:
 @pytest.fixture(scope="module")
 def found(packing) -> Block:
     """One sample with pairs, one that is not jammed."""
-    return pairs_block(packings(packing, packing.at(0.5)), LAW, SHEAR, ASKED)
+    return complex_pairs_block(packings(packing, packing.at(0.5)), LAW, SHEAR, ASKED)
 
 
 def test_every_state_is_there_from_none_to_some_pairs(found):
@@ -60,31 +60,33 @@ def test_every_state_is_there_from_none_to_some_pairs(found):
 
 def test_lives_add_up_to_the_pairs_of_every_state(found):
     values = {name: array[0] for name, array in found.variables.items()}
-    size = values["life_count"]
-    born, died = values["life_birth_after"][:size], values["life_death_after"][:size]
+    size = values["track_count"]
+    born, died = values["track_birth_after"][:size], values["track_death_after"][:size]
     for strain, count in zip(values["pair_strain"], values["pair_count"], strict=True):
         alive = (born <= strain + 1e-12) & ~(died <= strain + 1e-12)
         assert alive.sum() == count
-    assert np.array_equal(np.isnan(died), values["life_death_kind"][:size] == NEVER)
+    assert np.array_equal(np.isnan(died), values["track_death_kind"][:size] == NEVER)
 
 
 def test_a_birth_has_its_exceptional_point(found):
     values = {name: array[0] for name, array in found.variables.items()}
-    met = values["located_kind"] == COALESCENCE
+    met = values["exceptional_point_kind"] == COALESCENCE
     assert met.any()
-    assert np.all(values["located_after"][met] - values["located_before"][met] <= 1e-9)
+    assert np.all(
+        values["exceptional_point_after"][met] - values["exceptional_point_before"][met] <= 1e-9
+    )
     for side in ("real", "pair"):
-        exponents = values[f"located_exponent_{side}"][met]
+        exponents = values[f"exceptional_point_exponent_{side}"][met]
         assert_allclose(exponents, 0.5, atol=2e-3)
-    near = np.isfinite(values["exceptional_distance"])
-    assert np.all(values["exceptional_residual"][near] < 1e-12)
-    closest = near & (np.abs(values["exceptional_distance"]) < 2e-8)
-    assert np.all(values["exceptional_product"][closest] > 0.99)
+    near = np.isfinite(values["neighbour_distance"])
+    assert np.all(values["neighbour_residual"][near] < 1e-12)
+    closest = near & (np.abs(values["neighbour_distance"]) < 2e-8)
+    assert np.all(values["neighbour_product"][closest] > 0.99)
 
 
 def test_lapack_finds_the_same_pairs(packing, found):
-    dense = pairs_block(packings(packing), LAW, SHEAR, replace(ASKED, detection="dense"))
-    for name in ("pair_count", "pair_count_jacobian", "life_birth_kind", "located_kind"):
+    dense = complex_pairs_block(packings(packing), LAW, SHEAR, replace(ASKED, detection="dense"))
+    for name in ("pair_count", "pair_count_jacobian", "track_birth_kind", "exceptional_point_kind"):
         assert np.array_equal(dense.variables[name][0], found.variables[name][0]), name
     assert_allclose(dense.variables["pair_growth"], found.variables["pair_growth"][:1], atol=1e-6)
     assert dense.variables["pair_dense"].all()
@@ -92,14 +94,14 @@ def test_lapack_finds_the_same_pairs(packing, found):
 
 
 def test_windows_find_the_same_pairs(packing, found):
-    asked = replace(ASKED, detection="windows")
-    other = pairs_block(packings(packing), LAW, SHEAR, asked).variables
+    asked = replace(ASKED, detection="discs")
+    other = complex_pairs_block(packings(packing), LAW, SHEAR, asked).variables
     assert np.array_equal(other["pair_count"][0], found.variables["pair_count"][0])
     assert_allclose(other["pair_growth"], found.variables["pair_growth"][:1], atol=1e-6)
 
 
 def test_the_condition_of_the_fastest_pair_is_that_of_lapack(packing, found):
-    dense = pairs_block(packings(packing), LAW, SHEAR, replace(ASKED, detection="dense"))
+    dense = complex_pairs_block(packings(packing), LAW, SHEAR, replace(ASKED, detection="dense"))
     ours, theirs = (block.variables["pair_condition"] for block in (found, dense))
     assert (ours[np.isfinite(ours)] > 1.0).all()
     assert_allclose(ours[:1], theirs, rtol=0.02)
@@ -138,5 +140,5 @@ def test_a_sample_that_is_not_jammed_has_no_states(found):
 def test_the_same_packing_gives_the_same_bytes(packing, tmp_path):
     short = replace(SHEAR, strain=2e-3)
     for name in ("one", "other"):
-        write_block(tmp_path / name, pairs_block(packings(packing), LAW, short, ASKED))
+        write_block(tmp_path / name, complex_pairs_block(packings(packing), LAW, short, ASKED))
     assert (tmp_path / "one").read_bytes() == (tmp_path / "other").read_bytes()

@@ -1,4 +1,4 @@
-"""Rows of the figures of one event, from the files of `grainmodes close-up`."""
+"""Rows of the figures of one event, from the files of `grainmodes event-detail`."""
 
 from __future__ import annotations
 

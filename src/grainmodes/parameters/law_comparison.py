@@ -2,5 +2,5 @@
 
 from __future__ import annotations
 
-MOST_GRAINS = 200
+MAX_GRAINS = 200
 """Grains up to which the dense eigenvalues of all states take seconds."""

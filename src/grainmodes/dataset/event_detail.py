@@ -1,4 +1,4 @@
-"""Names of a close-up of one event, beside those of `shear` for the event itself.
+"""Names of an event detail of one event, beside those of `shear` for the event itself.
 
 Before the event a distance is negative. A grain that carries no load has no number in a field, nor
 has a rotation where friction does not exist.
@@ -16,7 +16,7 @@ GRAINS = ("seed", "grain", "component")
 
 NAMES = {
     # the first event, bracketed ever closer
-    "bracket_smallest_step": Variable(BRACKET, "f8", "1", "smallest step Delta gamma_Th of a walk"),
+    "bracket_min_step": Variable(BRACKET, "f8", "1", "smallest step Delta gamma_Th of a walk"),
     "bracket_kind": Variable(
         BRACKET, "i1", "1", "what its first event was, as event_kind; 0: no event"
     ),
