@@ -20,7 +20,7 @@ SCENES = {
     "release": (
         {"complex_pairs": True, "release": True},
         {"contact_law": LAW},
-        {"pairs": 4, "release": 4},
+        {"complex_pairs": 4, "release": 4},
     ),
     "frictionless": (
         {"rigidity": True, "spectrum": "counts"},

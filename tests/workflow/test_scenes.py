@@ -30,7 +30,7 @@ def test_every_observable(fresh):
         "claim_diagnostics",
         "fields",
         "event_detail",
-        "pairs",
+        "complex_pairs",
     ):
         assert jobs[stage] == 4
     assert "--variant rattlers" in plan

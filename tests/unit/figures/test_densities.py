@@ -57,14 +57,14 @@ def test_fractions_of_the_modes_separate_the_bands(ensemble):
     assert table["psi_rotational"][table["modes"] == 0].isna().all()
 
 
-def test_fineness_scales_the_linear_bins(ensemble):
+def test_bin_density_scales_the_linear_bins(ensemble):
     fine = dos.table(ensemble, Options(kt=(1e-4,), bin_density=1.0))
     coarse = dos.table(ensemble, Options(kt=(1e-4,), bin_density=0.1))
     assert len(fine) - len(coarse) > 500
     assert fine["modes"].sum() == coarse["modes"].sum()
 
 
-def test_fineness_is_that_of_the_study_where_no_other_is_asked_for(tmp_path):
+def test_bin_density_is_that_of_the_study_where_no_other_is_asked_for(tmp_path):
     point = synthetic.point(tmp_path, 16, 0.9, 1e-4, 2)
     chosen, bins = {"protocol": {"spectrum": {"bin_density": 0.1}}}, {}
     for name, config in {"silent": {}, "0.1": chosen}.items():

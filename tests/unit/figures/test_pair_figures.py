@@ -14,7 +14,7 @@ from grainmodes.figures.shared.selection import Options
 @pytest.fixture(scope="module")
 def paired(tmp_path_factory):
     """Two samples each of 8 and 16 grains, and of an area fraction at which none is jammed."""
-    stages = ("packings", "pairs")
+    stages = ("packings", "complex_pairs")
     folder = tmp_path_factory.mktemp("paired")
     path = synthetic.ensemble(folder, (8, 16), (0.83, 0.9), (1.0,), seeds=2, stages=stages)
     with open_ensemble(path) as dataset:

@@ -79,7 +79,7 @@ def test_bins_ascend_over_exactly_the_range_of_the_data(kappa, bin_density):
     assert (np.diff(edges) > 0).all()
 
 
-def test_fineness_scales_the_numbers_of_linear_bins():
+def test_bin_density_scales_the_numbers_of_linear_bins():
     edges = binning.bin_edges(1e-4, 1e-5, 1.0, bin_density=0.1)
     assert ((edges >= 0.1 * (1 - 1e-12)) & (edges <= 1.0)).sum() == 51
     assert ((edges > 1e-3 * (1 - 1e-12)) & (edges < 2e-2 * (1 + 1e-12))).sum() == 11
