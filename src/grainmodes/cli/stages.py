@@ -79,7 +79,8 @@ def spectrum(arguments: Namespace) -> None:
     law, kind = scene.law_at(arguments.kt), scene.grids[0].observables.spectrum
     if kind == "none":
         raise ConfigurationError(
-            "observables.spectrum: expected one of counts, binned_averages, eigenvalues, modes, got 'none'"
+            "observables.spectrum: expected one of counts, binned_averages, eigenvalues, modes, "
+            "got 'none'"
         )
     rattlers, choices = scene.protocol.rattlers, scene.protocol.spectrum
     processes = arguments.processes

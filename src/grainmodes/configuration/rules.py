@@ -57,7 +57,10 @@ def _variants(config: dict) -> Iterator[str]:
             f"({', '.join(COULOMB_LAWS)}), got none"
         )
     for n in (n for grid in asked for n in grid["n"] if n > MAX_GRAINS):
-        yield f"observables.law_comparison: expected grids of at most {MAX_GRAINS} grains, got n = {n}"
+        yield (
+            f"observables.law_comparison: expected grids of at most {MAX_GRAINS} grains, "
+            f"got n = {n}"
+        )
 
 
 def _steps(config: dict) -> Iterator[str]:

@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
+from grainmodes.dataset.units import LENGTH, NUMBER, RATE
 from grainmodes.dataset.variable import Variable
 
 GRAINS = ("seed", "grain", "component")
 
 NAMES = {
-    "affine_field": Variable(GRAINS, "f8", "d", "affine displacement per unit strain, (x, y, l)"),
-    "nonaffine_field": Variable(GRAINS, "f8", "d", "non-affine displacement per unit strain"),
+    "affine_field": Variable(
+        GRAINS, "f8", LENGTH, "affine displacement per unit strain, (x, y, l)"
+    ),
+    "nonaffine_field": Variable(GRAINS, "f8", LENGTH, "non-affine displacement per unit strain"),
     "nonaffine_field_mode_sum": Variable(
-        GRAINS, "f8", "d", "nonaffine_field as a sum over the modes"
+        GRAINS, "f8", LENGTH, "nonaffine_field as a sum over the modes"
     ),
     "nonaffine_field_simulated": Variable(
-        GRAINS, "f8", "d", "nonaffine_field from relaxed step strains"
+        GRAINS, "f8", LENGTH, "nonaffine_field from relaxed step strains"
     ),
     "frequency_asked": Variable(
-        ("seed", "frequency"), "f8", "1/t_0", "frequency near which an eigenvector is sought"
+        ("seed", "frequency"), "f8", RATE, "frequency near which an eigenvector is sought"
     ),
     "frequency_found": Variable(
-        ("seed", "frequency"), "f8", "1/t_0", "frequency of the mode nearest to frequency_asked"
+        ("seed", "frequency"), "f8", RATE, "frequency of the mode nearest to frequency_asked"
     ),
     "eigenvector": Variable(
-        ("seed", "frequency", "grain", "component"), "f8", "1", "its eigenvector, of norm 1"
+        ("seed", "frequency", "grain", "component"), "f8", NUMBER, "its eigenvector, of norm 1"
     ),
 }

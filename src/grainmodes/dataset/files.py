@@ -16,6 +16,7 @@ import netCDF4
 import numpy as np
 
 from grainmodes.dataset import VARIABLES
+from grainmodes.dataset.units import laws_of
 from grainmodes.runtime.atomic import replaced
 
 
@@ -40,7 +41,8 @@ def write_block(path: str | Path, block: Block) -> None:
     """Write a block: all of it or nothing.
 
     `block.variables` maps names of `VARIABLES` to arrays with those dimensions. Attribute values
-    are numbers, text, or dictionaries (stored as sorted JSON).
+    are numbers, text, or dictionaries (stored as sorted JSON). The text of the units
+    follows from the contact law in the attribute `config`.
 
     Raises:
         KeyError: a name is not in `VARIABLES`.
@@ -70,6 +72,7 @@ def _write(file: netCDF4.Dataset, block: Block) -> None:
         file.setncattr(
             name, json.dumps(value, sort_keys=True) if isinstance(value, dict) else value
         )
+    laws = laws_of(block.mapping("config"))
     for name, array in block.variables.items():
         row = VARIABLES[name]
         array = np.asarray(array, dtype=row.dtype)
@@ -83,7 +86,7 @@ def _write(file: netCDF4.Dataset, block: Block) -> None:
                 )
         compressed = {"zlib": True, "complevel": 1, "shuffle": True} if array.ndim > 1 else {}
         variable = file.createVariable(name, row.dtype, row.dimensions, **compressed)
-        variable.units = row.units
+        variable.units = row.unit.text(laws)
         variable.long_name = row.long_name
         variable[...] = array
 

@@ -2,45 +2,58 @@
 
 from __future__ import annotations
 
-from grainmodes.dataset.variable import BLOCK, FORCE, MODULUS, Variable
+from grainmodes.dataset.units import (
+    BOX_FRACTION,
+    FORCE,
+    LENGTH,
+    MASS,
+    MODULUS,
+    NUMBER,
+    SPRING_STATE,
+)
+from grainmodes.dataset.variable import BLOCK, Variable
 
 NAMES = {
     # coordinates
-    "seed": Variable(("seed",), "i8", "1", "seed of the random placement"),
-    "n": Variable(("n",), "i8", "1", "number of grains"),
-    "phi": Variable(("phi",), "f8", "1", "projected area fraction"),
-    "kt": Variable(("kt",), "f8", "k_N", "tangential stiffness k_T / k_N"),
-    "mode": Variable(("mode",), "i8", "1", "rank of a mode, eigenvalues ascending"),
+    "seed": Variable(("seed",), "i8", NUMBER, "seed of the random placement"),
+    "n": Variable(("n",), "i8", NUMBER, "number of grains"),
+    "phi": Variable(("phi",), "f8", NUMBER, "projected area fraction"),
+    "kt": Variable(("kt",), "f8", NUMBER, "tangential stiffness k_T / k_N"),
+    "mode": Variable(("mode",), "i8", NUMBER, "rank of a mode, eigenvalues ascending"),
     # packing
-    "position": Variable(("seed", "grain", "axis"), "f8", "d", "grain position in [0, L), (x, y)"),
+    "position": Variable(
+        ("seed", "grain", "axis"), "f8", LENGTH, "grain position in [0, L), (x, y)"
+    ),
     "fraction": Variable(
         ("seed", "grain", "axis"),
         "i8",
-        "2^-64 L",
+        BOX_FRACTION,
         "grain position as an integer fraction of the box: the exact state",
     ),
-    "diameter": Variable(("seed", "grain"), "f8", "d", "grain diameter"),
-    "mass": Variable(("seed", "grain"), "f8", "m", "grain mass"),
-    "box_length": Variable(BLOCK, "f8", "d", "side L of the periodic square box"),
-    "strain": Variable(BLOCK, "f8", "1", "shear strain of the Lees-Edwards box"),
-    "contact_i": Variable(("seed", "contact"), "i4", "1", "grain i of a contact, i > j; -1: none"),
-    "contact_j": Variable(("seed", "contact"), "i4", "1", "grain j of a contact; -1: none"),
+    "diameter": Variable(("seed", "grain"), "f8", LENGTH, "grain diameter"),
+    "mass": Variable(("seed", "grain"), "f8", MASS, "grain mass"),
+    "box_length": Variable(BLOCK, "f8", LENGTH, "side L of the periodic square box"),
+    "strain": Variable(BLOCK, "f8", NUMBER, "shear strain of the Lees-Edwards box"),
+    "contact_i": Variable(
+        ("seed", "contact"), "i4", NUMBER, "grain i of a contact, i > j; -1: none"
+    ),
+    "contact_j": Variable(("seed", "contact"), "i4", NUMBER, "grain j of a contact; -1: none"),
     "spring_state": Variable(
-        ("seed", "contact"), "f8", "d", "signed tangential displacement s of a contact"
+        ("seed", "contact"), "f8", SPRING_STATE, "signed tangential displacement s of a contact"
     ),
     "pressure": Variable(BLOCK, "f8", MODULUS, "pressure (sigma_xx + sigma_yy) / -2"),
     "contact_number": Variable(
-        BLOCK, "f8", "1", "mean number of contacts of a grain that is no rattler"
+        BLOCK, "f8", NUMBER, "mean number of contacts of a grain that is no rattler"
     ),
-    "rattler_count": Variable(BLOCK, "i8", "1", "number of rattlers"),
+    "rattler_count": Variable(BLOCK, "i8", NUMBER, "number of rattlers"),
     "phi_jamming": Variable(
-        BLOCK, "f8", "1", "highest phi of the trajectory so far at which it was not jammed"
+        BLOCK, "f8", NUMBER, "highest phi of the trajectory so far at which it was not jammed"
     ),
     # how a sample came out
-    "converged": Variable(BLOCK, "i1", "1", "1 if the requested accuracy was reached, else 0"),
-    "jammed": Variable(BLOCK, "i1", "1", "1 if a rigid backbone carries the load, else 0"),
+    "converged": Variable(BLOCK, "i1", NUMBER, "1 if the requested accuracy was reached, else 0"),
+    "jammed": Variable(BLOCK, "i1", NUMBER, "1 if a rigid backbone carries the load, else 0"),
     "max_force": Variable(BLOCK, "f8", FORCE, "largest force component left on a grain"),
     "max_torque": Variable(BLOCK, "f8", FORCE, "largest scaled torque 2 T / d left on a grain"),
-    "iterations": Variable(BLOCK, "i8", "1", "iterations of the relaxation"),
-    "step": Variable(BLOCK, "i8", "1", "number of the grid step on which a trajectory stands"),
+    "iterations": Variable(BLOCK, "i8", NUMBER, "iterations of the relaxation"),
+    "step": Variable(BLOCK, "i8", NUMBER, "number of the grid step on which a trajectory stands"),
 }

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from grainmodes.dataset.variable import BLOCK, FORCE, MODULUS, Variable
+from grainmodes.dataset.units import FORCE, MODULUS, NUMBER
+from grainmodes.dataset.variable import BLOCK, Variable
 
 NAMES = {
     # rigidity, theory
@@ -22,9 +23,9 @@ NAMES = {
     "g_simulated_error": Variable(
         BLOCK, "f8", MODULUS, "difference of g_simulated to that of a step ten times larger"
     ),
-    "strain_simulated": Variable(BLOCK, "f8", "1", "size of the step strain of g_simulated"),
+    "strain_simulated": Variable(BLOCK, "f8", NUMBER, "size of the step strain of g_simulated"),
     "iterations_simulated": Variable(
-        BLOCK, "i8", "1", "iterations of the relaxation of the step strains"
+        BLOCK, "i8", NUMBER, "iterations of the relaxation of the step strains"
     ),
     "max_force_simulated": Variable(
         BLOCK, "f8", FORCE, "largest force component left after the step strains"
@@ -33,6 +34,6 @@ NAMES = {
         BLOCK, "f8", FORCE, "largest scaled torque 2 T / d left after the step strains"
     ),
     "contact_changes": Variable(
-        BLOCK, "i8", "1", "contacts opened or closed by the relaxed step strain"
+        BLOCK, "i8", NUMBER, "contacts opened or closed by the relaxed step strain"
     ),
 }

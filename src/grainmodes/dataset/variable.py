@@ -1,20 +1,20 @@
-"""A row of the table of names, and the dimensions and units that many rows share."""
+"""A row of the table of names, and the dimensions that many rows share."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
+from grainmodes.dataset.units import Unit
+
 BLOCK = ("seed",)
 MODES = ("seed", "mode")
 BINS = ("seed", "bin")
-FORCE = "k_N d^(3/2)"
-MODULUS = "k_N d^(1/2)"
 
 
 class Variable(NamedTuple):
-    """What a name means."""
+    """What a name means: its dimensions, the type of its numbers, their unit, and a description."""
 
     dimensions: tuple[str, ...]
     dtype: str
-    units: str
+    unit: Unit
     long_name: str

@@ -18,6 +18,7 @@ import numpy as np
 
 from grainmodes.dataset import VARIABLES
 from grainmodes.dataset.files import Block, BlockError, new_file, read_block
+from grainmodes.dataset.units import Laws, laws_of
 
 GRID = ("n", "phi", "kt")
 INTEGER_FILL = -1
@@ -47,7 +48,7 @@ def write_ensemble(point_paths: list[str | Path], out_path: str | Path, config: 
     paths = _in_grid_order(point_paths)
     layout = _layout(paths)
     with new_file(out_path) as file:
-        _define(file, layout)
+        _define(file, layout, laws_of(config))
         file.title = "Ensemble of jammed packings: response, spectra and provenance, by sample"
         file.code_version = layout.code_version
         file.config = json.dumps(config, sort_keys=True)
@@ -103,10 +104,10 @@ def _layout(paths: list[Path]) -> Layout:
     return Layout(coordinates, lengths, in_table_order, ", ".join(sorted(versions)))
 
 
-def _define(file: netCDF4.Dataset, layout: Layout) -> None:
+def _define(file: netCDF4.Dataset, layout: Layout, laws: Laws) -> None:
     for name, values in layout.coordinates.items():
         file.createDimension(name, len(values))
-        _describe(file.createVariable(name, VARIABLES[name].dtype, (name,)), name)
+        _describe(file.createVariable(name, VARIABLES[name].dtype, (name,)), name, laws)
         file[name][...] = values
     for name, length in sorted(layout.lengths.items()):
         file.createDimension(name, length)
@@ -119,11 +120,11 @@ def _define(file: netCDF4.Dataset, layout: Layout) -> None:
             fill_value=np.nan if row.dtype.startswith("f") else INTEGER_FILL,
             **_storage(layout, row.dimensions),
         )
-        _describe(variable, name)
+        _describe(variable, name, laws)
 
 
-def _describe(variable: netCDF4.Variable, name: str) -> None:
-    variable.units = VARIABLES[name].units
+def _describe(variable: netCDF4.Variable, name: str, laws: Laws) -> None:
+    variable.units = VARIABLES[name].unit.text(laws)
     variable.long_name = VARIABLES[name].long_name
 
 

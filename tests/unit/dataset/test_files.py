@@ -44,8 +44,31 @@ def test_what_is_written_is_read(tmp_path):
 def test_a_block_opens_with_xarray(tmp_path):
     write_block(tmp_path / "block.nc", block())
     with xr.open_dataset(tmp_path / "block.nc") as dataset:
-        assert dataset["g"].attrs["units"] == "k_N d^(1/2)"
+        assert dataset["g"].attrs["long_name"] == "rigidity under an unloaded step strain"
         assert dataset["eigenvalue"].dims == ("seed", "mode")
+
+
+HERTZ = {"normal": "hertz", "tangential": "sharp_coulomb_force"}
+
+
+@pytest.mark.parametrize(
+    ("config", "units"),
+    [
+        ({"normal": "hertz", "law": HERTZ}, ("k_N d^(1/2)", "k_N d^(3/2)")),
+        ({"normal": "harmonic"}, ("k_N", "d or k_N d")),
+        (
+            {"packings": {"normal": "hertz"}, "shear": {"law": HERTZ}},
+            ("k_N d^(1/2)", "k_N d^(3/2)"),
+        ),
+        ({"contact_law": HERTZ | {"tangential": "elastic"}}, ("k_N d^(1/2)", "d")),
+        ({"format": "foreign"}, ("f_0 d^-1", "d or f_0")),
+    ],
+)
+def test_units_follow_from_the_contact_law(tmp_path, config, units):
+    variables = {"seed": np.arange(2), "g": np.ones(2), "spring_state": np.ones((2, 3))}
+    write_block(tmp_path / "block.nc", Block(variables, {"config": config}))
+    with xr.open_dataset(tmp_path / "block.nc") as dataset:
+        assert (dataset["g"].attrs["units"], dataset["spring_state"].attrs["units"]) == units
 
 
 def test_same_content_same_bytes(tmp_path):
@@ -117,7 +140,7 @@ def test_every_variable_is_described_in_the_documentation():
     rows = dict(re.findall(r"^\| `(\w+)` \| (.*) \|$", section, re.MULTILINE))
     for name, variable in VARIABLES.items():
         meaning = variable.long_name.replace("|", r"\|")
-        expected = f"{', '.join(variable.dimensions)} | {variable.units} | {meaning}"
+        expected = f"{', '.join(variable.dimensions)} | {variable.unit.text()} | {meaning}"
         assert rows.get(name) == expected, f"docs/data.md needs: | `{name}` | {expected} |"
     assert set(rows) == set(VARIABLES)
 
