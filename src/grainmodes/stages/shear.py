@@ -175,7 +175,7 @@ def _side(side: str, balances: list[Balance], points: list[Point]) -> dict[str, 
             "rotation": np.stack([packing.rotation for packing in packings]),
             "contact_i": _even((h.i for h in histories), -1),
             "contact_j": _even((h.j for h in histories), -1),
-            "slip": _even((h.spring_state for h in histories), np.nan),
+            "spring_state": _even((h.spring_state for h in histories), np.nan),
         }
     return {f"event_{name}_{side}": values for name, values in row.items()}
 

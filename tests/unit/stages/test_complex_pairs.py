@@ -110,7 +110,7 @@ def test_the_condition_of_the_fastest_pair_is_that_of_lapack(packing, found):
 def test_the_state_that_grows_fastest_is_whole(packing, found):
     values = {name: array[0] for name, array in found.variables.items()}
     assert values["unstable_found"] == 1
-    names = ("contact_i", "contact_j", "slip")
+    names = ("contact_i", "contact_j", "spring_state")
     held = values["unstable_contact_i"] >= 0
     state = replace(
         packing,
