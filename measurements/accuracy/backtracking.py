@@ -20,7 +20,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from grainmodes.kernels.laws import Interaction, interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
@@ -36,8 +36,8 @@ PHI, LAST = 0.9, 0.1
 SHIPPED, CLOSEST = Shear(), 1e-12
 """The defaults, and Δγ_Th of the reference."""
 
-FRICTION = interaction(ContactLaw("harmonic", "elastic", 1.0))
-FRICTIONLESS = interaction(ContactLaw("harmonic"))
+FRICTION = Interaction.from_law(ContactLaw("harmonic", "elastic", 1.0))
+FRICTIONLESS = Interaction.from_law(ContactLaw("harmonic"))
 """B's law, k_T = k_N, and without friction."""
 
 
@@ -49,7 +49,7 @@ COARSE = (1e-3, 1e-4, 1e-5)
 class Way(NamedTuple):
     """A law, and whether steps are taken back; else all are as short as Δγ_Th."""
 
-    rule: Interaction
+    interaction: Interaction
     backtracking: bool
 
     @property
@@ -76,7 +76,7 @@ def measure(size: Size) -> Iterator[Row]:
         packings = [harmonic(n, seed) for seed in range(size.seeds)]
         for name, way in WAYS.items():
             closest = Shear(LAST, SHIPPED.step, CLOSEST)
-            exact = [critical_strain(packing, way.rule, closest) for packing in packings]
+            exact = [critical_strain(packing, way.interaction, closest) for packing in packings]
             for width in way.widths:
                 done = apart(sampled, name, width, packings, exact)
                 default = way.backtracking and width == SHIPPED.min_step
@@ -92,19 +92,19 @@ def harmonic(n: int, seed: int) -> Packing:
 def sampled(name: str, width: float, packings: list[Packing], exact: list[float]) -> list[Sample]:
     """The error of γ_c of every packing."""
     way = WAYS[name]
-    critical_strain(packings[0], way.rule, Shear(2e-4, 1e-4, 1e-6))
+    critical_strain(packings[0], way.interaction, Shear(2e-4, 1e-4, 1e-6))
     return [_sample(way, width, *of) for of in zip(packings, exact, strict=True)]
 
 
 def _sample(way: Way, width: float, packing: Packing, exact: float) -> Sample:
-    strain, seconds = timed(critical_strain, packing, way.rule, way.shear(width))
+    strain, seconds = timed(critical_strain, packing, way.interaction, way.shear(width))
     return FAILED if math.isnan(strain - exact) else Sample(seconds, abs(strain - exact))
 
 
-def critical_strain(packing: Packing, rule: Interaction, shear: Shear) -> float:
+def critical_strain(packing: Packing, interaction: Interaction, shear: Shear) -> float:
     """γ_c, the middle of the bracket of the first event; NaN where there is none."""
     try:
-        walk = Walk.start(packing, rule, shear)
+        walk = Walk.start(packing, interaction, shear)
     except SAMPLE_ERRORS:
         return math.nan
     for before, after in steps(walk):

@@ -32,7 +32,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.stats import ks_2samp
 
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.protocols.compression.trajectory import (
@@ -46,7 +46,7 @@ from grainmodes.stages.samples import packed
 from measurements.accuracy.diagram import Apart, Diagram, Row, Size, apart, of
 from measurements.accuracy.packings import HERTZ
 
-PHI, RULE = 0.87, interaction(ContactLaw(kt=1e-4))
+PHI, INTERACTION = 0.87, Interaction.from_law(ContactLaw(kt=1e-4))
 
 STEPS = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 BALANCES = (1e-1, 1e-2, 1e-3, 1e-4)
@@ -82,7 +82,7 @@ def _sample(n: int, seed: int, protocol: Compression) -> tuple[float, float, flo
     try:
         grid = compress_along_grid(place_at_random(n, seed, HERTZ, protocol), PHI, HERTZ, protocol)
         packing = compress_to(grid, PHI, HERTZ, protocol).packing
-        g = rigidity(packing, RULE).unloaded.g
+        g = rigidity(packing, INTERACTION).unloaded.g
     except SAMPLE_ERRORS:
         return (np.nan,) * 4
     row = packed(packing, HERTZ)

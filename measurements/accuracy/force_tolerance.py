@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy.linalg
 
-from grainmodes.kernels.laws import Frictionless, Interaction, interaction
+from grainmodes.kernels.laws import Frictionless, Interaction
 from grainmodes.packing.contacts import rattlers
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
@@ -37,7 +37,7 @@ from grainmodes.statistics.averages import TRANSLATIONS
 from measurements.accuracy.diagram import FAILED, Diagram, Row, Sample, Size, apart, of, row, timed
 from measurements.accuracy.packings import HERTZ, compressed
 
-PHI, STEP, RULE = 0.85, 1e-3, interaction(ContactLaw(kt=1.0))
+PHI, STEP, INTERACTION = 0.85, 1e-3, Interaction.from_law(ContactLaw(kt=1.0))
 """φ of the balance, the step that led to it, and the law of its response, k_T = k_N."""
 
 SHIPPED = Compression()
@@ -73,10 +73,10 @@ class Answers(NamedTuple):
 
 def answers(packing: Packing) -> Answers:
     """The answers of a packing, without its rattlers."""
-    matrix = problem(packing, RULE).matrix.toarray()
+    matrix = problem(packing, INTERACTION).matrix.toarray()
     values = scipy.linalg.eigvalsh(matrix)
     values = values[np.argsort(np.abs(values))][TRANSLATIONS:]
-    g = rigidity(packing, RULE).unloaded.g
+    g = rigidity(packing, INTERACTION).unloaded.g
     return Answers(g, np.sort(values[:LOWEST]), contacts_of(packing))
 
 
@@ -92,9 +92,9 @@ def reference(relax: Callable, packing: Packing) -> Answers:
     """The answers of the balance that a relaxation leads to."""
     balance = relax(packing, HERTZ, SHIPPED.force_tolerance, MOST).packing
     gone = rattlers(find_contacts(balance), balance.n, threshold=2)
-    rule = Interaction(HERTZ, Frictionless())
+    interaction = Interaction(HERTZ, Frictionless())
     fraction = balance.fraction.copy()
-    solved = newton(balance.without(gone), rule, 0.0, POLISHING)
+    solved = newton(balance.without(gone), interaction, 0.0, POLISHING)
     fraction[:, ~gone] = solved.packing.fraction
     return answers(replace(balance, fraction=fraction))
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from grainmodes.kernels.damping import Undamped
 from grainmodes.kernels.dynamics import Stop
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.mass_weighted import root_mass
 from grainmodes.packing.state import Packing, nonaffine_motion
 from grainmodes.parameters.complex_pairs import PairChoices
@@ -27,7 +27,7 @@ from grainmodes.protocols.pair_tracking.tracking import PairWalk
 from grainmodes.relaxation.dynamics import move
 from measurements.accuracy.packings import compressed
 
-RULE = interaction(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, 10.0))
+INTERACTION = Interaction.from_law(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, 10.0))
 """C's law."""
 
 GRAINS = Compression(phi_step=1e-3, large_diameter=1.4, masses="equal")
@@ -69,7 +69,7 @@ class Leaving(NamedTuple):
         kick = KICK * self.mode.real.reshape(-1, 3) / np.linalg.norm(self.mode.real)
         steps = round(GROWN / (self.omega.imag * time_step))
         ends = [
-            move(self.packing, sign * kick, RULE, Undamped(), time_step, Stop(0.0, steps))
+            move(self.packing, sign * kick, INTERACTION, Undamped(), time_step, Stop(0.0, steps))
             for sign in (1.0, -1.0)
         ]
         there, back = (self.amplitude(end.packing, end.velocity) for end in ends)
@@ -79,7 +79,7 @@ class Leaving(NamedTuple):
 
 def leaving(n: int, seed: int) -> Leaving | None:
     """The state along a shear that is released, if it does not grow too slowly."""
-    walk = PairWalk.start(compressed(n, seed, 0.9, GRAINS), RULE, SHEAR, PAIRS)
+    walk = PairWalk.start(compressed(n, seed, 0.9, GRAINS), INTERACTION, SHEAR, PAIRS)
     while not walk.done:
         walk.advance()
     found = walk.unstable

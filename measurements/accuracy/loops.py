@@ -17,17 +17,17 @@ from numba import njit
 from grainmodes.kernels.compiler import FLAGS
 from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.dynamics import Grains, Stop, integrate
-from grainmodes.kernels.fire import MIXING, Pace, advance, next_pace, work
-from grainmodes.kernels.laws import interaction
-from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours
-from grainmodes.kernels.repulsion import load
+from grainmodes.kernels.fire import MIXING, FireState, advance, next_state, power_and_norms
+from grainmodes.kernels.laws import Interaction
+from grainmodes.kernels.neighbours import FRACTION_UNIT, find_neighbours
+from grainmodes.kernels.repulsion import mean_force_and_stiffness
 from grainmodes.packing.contacts import History
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.frictionless import SKIN, STABILITY
 from measurements.accuracy.packings import HERTZ
 
-ROUGH = interaction(ContactLaw(kt=1.0))
+ROUGH = Interaction.from_law(ContactLaw(kt=1.0))
 
 TIME_STEP, VISCOSITY = 0.01, 1.0
 """Δt / t_0 and η of the dynamics, as in a simulated step strain."""
@@ -50,14 +50,14 @@ def descent(overlap: type, force: type) -> Callable:
     """The loop of FIRE at a fixed list of neighbours, compiled for these types."""
 
     @njit(**{**FLAGS, "cache": False})
-    def repulsion(x, y, scale, left, right, reach, force_x, force_y):
+    def repulsion(x, y, scale, left, right, contact_distance, force_x, force_y):
         for pair in range(left.shape[0]):
             i, j = left[pair], right[pair]
             dx, dy = overlap(x[i] - x[j]) * scale, overlap(y[i] - y[j]) * scale
             square = dx * dx + dy * dy
-            if square < reach[pair] * reach[pair]:
+            if square < contact_distance[pair] * contact_distance[pair]:
                 distance = math.sqrt(square)
-                xi = force(reach[pair] - distance)
+                xi = force(contact_distance[pair] - distance)
                 pull = xi * math.sqrt(xi)
                 fx, fy = pull * force(dx / distance), pull * force(dy / distance)
                 force_x[i] += fx
@@ -66,16 +66,18 @@ def descent(overlap: type, force: type) -> Callable:
                 force_y[j] -= fy
 
     @njit(**{**FLAGS, "cache": False})
-    def descend(x, y, inverse_mass, scale, pairs, reach, limit, steps):
+    def descend(x, y, inverse_mass, scale, pairs, contact_distance, limit, steps):
         vx, vy, fx, fy = np.zeros((4, x.shape[0]), inverse_mass.dtype)
         left, right = pairs.left, pairs.right
-        repulsion(x, y, scale, left, right, reach, fx, fy)
-        pace = Pace(0.1 * limit, MIXING, 0, 1.0, 0.0, 0.0)
+        repulsion(x, y, scale, left, right, contact_distance, fx, fy)
+        state = FireState(0.1 * limit, MIXING, 0, 1.0, 0.0, 0.0)
         for _ in range(steps):
-            advance(x, y, vx, vy, fx, fy, inverse_mass, pace, 1.0 / np.float64(scale), 0.0)
-            repulsion(x, y, scale, left, right, reach, fx, fy)
-            power, speed2, force2 = work(vx, vy, fx, fy, inverse_mass, 0.5 * pace.time_step)
-            pace = next_pace(pace, power, speed2, force2, limit)
+            advance(x, y, vx, vy, fx, fy, inverse_mass, state, 1.0 / np.float64(scale), 0.0)
+            repulsion(x, y, scale, left, right, contact_distance, fx, fy)
+            power, speed2, force2 = power_and_norms(
+                vx, vy, fx, fy, inverse_mass, 0.5 * state.time_step
+            )
+            state = next_state(state, power, speed2, force2, limit)
         return fx, fy
 
     return descend
@@ -85,11 +87,14 @@ def descended(packing: Packing, precision: Precision, steps: int) -> tuple[Packi
     """The packing after steps of FIRE, and the forces on it as the loop sees them, (N, 2)."""
     x, y = packing.fraction.copy()
     pairs = find_neighbours(x, y, packing.diameter, packing.box_length, 0.0, SKIN)
-    _, stiffness = load(x, y, packing.box_length, 0.0, pairs, HERTZ)
+    _, stiffness = mean_force_and_stiffness(x, y, packing.box_length, 0.0, pairs, HERTZ)
     limit = STABILITY * 2.0 / math.sqrt(stiffness)
-    scale, reach = precision.overlap(packing.box_length * RESOLUTION), pairs.reach
+    scale, contact_distance = (
+        precision.overlap(packing.box_length * FRACTION_UNIT),
+        pairs.contact_distance,
+    )
     inverse_mass = np.ones(packing.n, precision.force)
-    given = inverse_mass, scale, pairs, reach.astype(precision.overlap), limit, steps
+    given = inverse_mass, scale, pairs, contact_distance.astype(precision.overlap), limit, steps
     forces = descent(*precision)(x, y, *given)
     return replace(packing, fraction=np.stack([x, y])), np.stack(forces, axis=1)
 
@@ -97,7 +102,7 @@ def descended(packing: Packing, precision: Precision, steps: int) -> tuple[Packi
 def exact_forces(packing: Packing) -> np.ndarray:
     """Hertzian net forces in extended precision, (N, 2)."""
     contacts = find_contacts(packing)
-    scale = np.longdouble(packing.box_length) * np.longdouble(RESOLUTION)
+    scale = np.longdouble(packing.box_length) * np.longdouble(FRACTION_UNIT)
     branch = (packing.fraction[:, contacts.i] - packing.fraction[:, contacts.j]) * scale
     distance = np.sqrt((branch**2).sum(axis=0))
     diameter = packing.diameter.astype(np.longdouble)

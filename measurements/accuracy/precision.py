@@ -88,9 +88,9 @@ def _errors(seconds: float, forces: float, floor: float, ratio: float, n: int) -
     return Errors(seconds / (STEPS * n) * 1e9, float(forces), floor, abs(ratio - 1.0))
 
 
-def residual(packing: Packing, law: Interaction) -> float:
+def residual(packing: Packing, interaction: Interaction) -> float:
     """max|F̃| in double precision."""
-    return max(largest(net_force(packing, find_contacts(packing), law)))
+    return max(largest(net_force(packing, find_contacts(packing), interaction)))
 
 
 SINGLE, DOUBLE = Precision(np.float32, np.float32), Precision(np.float64, np.float64)

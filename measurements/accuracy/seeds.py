@@ -20,7 +20,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.response.moduli import rigidity
@@ -32,7 +32,7 @@ from measurements.accuracy.diagram import Diagram, Row, Size, apart, of
 from measurements.accuracy.packings import compressed
 
 PHI, KAPPA = 0.9, 1e-4
-RULE = interaction(ContactLaw(kt=KAPPA))
+INTERACTION = Interaction.from_law(ContactLaw(kt=KAPPA))
 
 SHIPPED = 8
 """Seeds of the scene in config/default.yaml."""
@@ -73,8 +73,8 @@ def ensemble(n: int, seeds: int) -> np.ndarray:
     for seed in range(seeds):
         try:
             packing = compressed(n, seed, PHI)
-            g = rigidity(packing, RULE).unloaded.g
-            modes = band_averages(problem(packing, RULE), edges, averages=False).count
+            g = rigidity(packing, INTERACTION).unloaded.g
+            modes = band_averages(problem(packing, INTERACTION), edges, averages=False).count
         except SAMPLE_ERRORS:
             continue
         found[seed] = np.append(g, modes)

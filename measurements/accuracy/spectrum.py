@@ -28,7 +28,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import DENSE_COUNTS_UP_TO, DENSE_MODES_UP_TO, SpectrumChoices
@@ -191,8 +191,8 @@ def measure(size: Size) -> Iterator[Row]:
 
 def _measured(packings: list[Packing], what: str) -> Iterator[Row]:
     kappa, error = QUANTITIES[what]
-    law = interaction(ContactLaw(kt=kappa))
-    problems = [problem(packing, law) for packing in packings]
+    interaction = Interaction.from_law(ContactLaw(kt=kappa))
+    problems = [problem(packing, interaction) for packing in packings]
     exact = [apart(reference, of).value for of in problems]
     modes = min(of.size for of in problems)
     for name, method in METHODS.items():

@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import stress
 from grainmodes.packing.state import Packing, backbone, find_contacts
 from grainmodes.parameters.law import ContactLaw
@@ -29,7 +29,7 @@ from grainmodes.stages.rows import SAMPLE_ERRORS
 from measurements.accuracy.diagram import FAILED, Diagram, Row, Sample, Size, apart, of, row, timed
 from measurements.accuracy.packings import compressed
 
-PHI, RULE = 0.9, interaction(ContactLaw(kt=1.0))
+PHI, INTERACTION = 0.9, Interaction.from_law(ContactLaw(kt=1.0))
 """k_T = k_N: with a smaller one the damped dynamics needs more steps, rotations being slower."""
 
 STRAINS = tuple(10.0**-k for k in range(2, 10))
@@ -44,21 +44,21 @@ class Way(NamedTuple):
 
 def forward(packing: Packing, protocol: StepStrain) -> float:
     """g of one step forward, as A takes it."""
-    return forward_rigidity(packing, RULE, protocol)
+    return forward_rigidity(packing, INTERACTION, protocol)
 
 
 def both_sides(packing: Packing, protocol: StepStrain) -> float:
     """g of one step to either side."""
-    steps = relaxed_steps(backbone(packing, 2), RULE, protocol)
+    steps = relaxed_steps(backbone(packing, 2), INTERACTION, protocol)
     if not all(step.converged for step in steps):
         raise ArithmeticError(f"max|F| = {max(step.max_force for step in steps):.1e}")
-    after, before = (stress(s.packing, find_contacts(s.packing), RULE)[0, 1] for s in steps)
+    after, before = (stress(s.packing, find_contacts(s.packing), INTERACTION)[0, 1] for s in steps)
     return float(after - before) / (2.0 * protocol.strain)
 
 
 def shrinking(packing: Packing, protocol: StepStrain) -> float:
     """g by the shipped rule, whose first step is Δγ."""
-    found = step_strain(packing, RULE, protocol)
+    found = step_strain(packing, INTERACTION, protocol)
     if not found.converged:
         raise ArithmeticError(f"max|F| = {found.max_force:.1e}")
     return found.g
@@ -95,7 +95,7 @@ def sampled(name: str, strain: float, packings: list[Packing]) -> list[Sample]:
 
 
 def _sample(find: Callable, packing: Packing, protocol: StepStrain) -> Sample:
-    exact = rigidity(packing, RULE).unloaded.g
+    exact = rigidity(packing, INTERACTION).unloaded.g
     try:
         g, seconds = timed(find, packing, protocol)
     except SAMPLE_ERRORS:

@@ -26,8 +26,8 @@ import numpy as np
 
 from grainmodes.kernels.damping import Dashpot, Undamped
 from grainmodes.kernels.dynamics import Stop
-from grainmodes.kernels.laws import interaction
-from grainmodes.kernels.neighbours import RESOLUTION
+from grainmodes.kernels.laws import Interaction
+from grainmodes.kernels.neighbours import FRACTION_UNIT
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.release import Release
@@ -38,7 +38,7 @@ from measurements.accuracy.diagram import FAILED, Diagram, Row, Sample, Size, ap
 from measurements.accuracy.growth import Leaving, leaving
 from measurements.accuracy.packings import compressed
 
-PHI, RULE = 0.9, interaction(ContactLaw(kt=1.0))
+PHI, INTERACTION = 0.9, Interaction.from_law(ContactLaw(kt=1.0))
 
 TIME_STEPS = (2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
 DURATION = 10.0
@@ -66,7 +66,7 @@ class Start(NamedTuple):
 
     def after(self, damping, time_step: float, steps: int) -> Motion:
         """The motion after so many steps."""
-        return move(self.packing, self.velocity, RULE, damping, time_step, Stop(0.0, steps))
+        return move(self.packing, self.velocity, INTERACTION, damping, time_step, Stop(0.0, steps))
 
 
 def kicked(n: int, seed: int) -> Start:
@@ -78,7 +78,7 @@ def kicked(n: int, seed: int) -> Start:
 
 def errors(motion: Motion, exact: Motion) -> tuple[float, float]:
     """|Δq| and |Δq̇| between two ends of a motion, root mean squares in units of `AMPLITUDE`."""
-    length = motion.packing.box_length * RESOLUTION
+    length = motion.packing.box_length * FRACTION_UNIT
     step = (motion.packing.fraction - exact.packing.fraction) * length
     turn = motion.packing.rotation - exact.packing.rotation
     off = np.concatenate([step.ravel(), turn]), motion.velocity - exact.velocity

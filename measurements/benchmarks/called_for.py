@@ -16,7 +16,7 @@ import numpy as np
 from grainmodes.kernels.damping import Dashpot, Drag, Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.fire import FireSettings, fire
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import net_force
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing, backbone, find_contacts
@@ -60,7 +60,7 @@ def unloaded(n: int) -> Packing:
 @cache
 def loaded(n: int) -> Packing:
     """A balance after a small strain: every spring is stretched."""
-    relaxed = newton(unloaded(n).sheared(1e-5), interaction(ELASTIC), 1e-13, 40)
+    relaxed = newton(unloaded(n).sheared(1e-5), Interaction.from_law(ELASTIC), 1e-13, 40)
     if not relaxed.converged:
         raise ArithmeticError(f"no balance near a strain of 1e-5 among {n} grains")
     return relaxed.packing
@@ -89,37 +89,37 @@ def fire_steps(strain: float, n: int) -> Work:
 
 def dynamics_steps(law: ContactLaw, damping, n: int) -> Work:
     """200 steps of dynamics with springs, after a strain of 1e-4."""
-    packing, rule = unloaded(n).sheared(1e-4), interaction(law)
+    packing, interaction = unloaded(n).sheared(1e-4), Interaction.from_law(law)
     rest = np.zeros((packing.n, 3))
-    return lambda: move(packing, rest, rule, damping, 1e-2, Stop(0.0, 200))
+    return lambda: move(packing, rest, interaction, damping, 1e-2, Stop(0.0, 200))
 
 
 def forces(state, law: ContactLaw, n: int) -> Work:
     """Net forces from the contacts."""
-    packing, rule = state(n), interaction(law)
+    packing, interaction = state(n), Interaction.from_law(law)
     contacts = find_contacts(packing)
-    return lambda: net_force(packing, contacts, rule)
+    return lambda: net_force(packing, contacts, interaction)
 
 
 def assembly(state, law: ContactLaw, n: int) -> Work:
     """J from the contacts."""
-    packing, rule = state(n), interaction(law)
+    packing, interaction = state(n), Interaction.from_law(law)
     contacts = find_contacts(packing)
-    return lambda: jacobian(packing, contacts, rule)
+    return lambda: jacobian(packing, contacts, interaction)
 
 
 def moduli(state, law: ContactLaw, n: int) -> Work:
     """g, g_A, g_NA from the packing."""
-    packing, rule = state(n), interaction(law)
-    return lambda: rigidity(packing, rule)
+    packing, interaction = state(n), Interaction.from_law(law)
+    return lambda: rigidity(packing, interaction)
 
 
 def sheared(law: ContactLaw, n: int) -> Work:
     """Ten steps of quasistatic shear, no bracket narrower than a step."""
-    packing, rule = unloaded(n), interaction(law)
+    packing, interaction = unloaded(n), Interaction.from_law(law)
 
     def work():
-        walk = Walk.start(packing, rule, Shear(1e-3, 1e-4, 1e-4))
+        walk = Walk.start(packing, interaction, Shear(1e-3, 1e-4, 1e-4))
         while not walk.done and walk.advance():
             pass
 
@@ -128,13 +128,13 @@ def sheared(law: ContactLaw, n: int) -> Work:
 
 def bands(averages: bool, law: ContactLaw, n: int) -> Work:
     """The default bins: counts alone, or with ψ^R and p."""
-    of, edges = problem(unloaded(n), interaction(law)), fixed_edges(law.kt, 0.2)
+    of, edges = problem(unloaded(n), Interaction.from_law(law)), fixed_edges(law.kt, 0.2)
     return lambda: band_averages(of, edges, averages)
 
 
 def eigen(modes: bool, state, law: ContactLaw, n: int) -> Work:
     """All eigenvalues, or all modes with ψ^R and p."""
-    of = problem(state(n), interaction(law))
+    of = problem(state(n), Interaction.from_law(law))
     return lambda: full_spectrum(of, modes)
 
 

@@ -20,7 +20,7 @@ from grainmodes.dataset.files import write_block
 from grainmodes.kernels.damping import Dashpot, Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.fire import FireSettings, fire
-from grainmodes.kernels.laws import Hertz, interaction
+from grainmodes.kernels.laws import Hertz, Interaction
 from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import checkpoints_up_to, phi_at_step
@@ -105,11 +105,11 @@ def newtonian_step(n: int) -> float:
 
 
 def _step(n: int, law: ContactLaw, damping, time_step: float) -> float:
-    packing, rule = quenched(n, 0.9).sheared(1e-4), interaction(law)
+    packing, interaction = quenched(n, 0.9).sheared(1e-4), Interaction.from_law(law)
     steps = 4_000_000 // n
 
     def run(count):
-        move(packing, np.zeros((n, 3)), rule, damping, time_step, Stop(0.0, count))
+        move(packing, np.zeros((n, 3)), interaction, damping, time_step, Stop(0.0, count))
 
     run(1)
     return (cpu(run, steps + 1) - cpu(run, 1)) / steps / n * 1e9
@@ -130,16 +130,16 @@ def trajectory(n: int) -> float:
 
 def moduli(n: int) -> float:
     """g, g_A, g_NA, unloaded and loaded, from a packing."""
-    packing, rule = balanced_at(n, 0.9), interaction(ContactLaw(kt=1e-4))
-    rigidity(packing, rule)
-    return cpu(rigidity, packing, rule)
+    packing, interaction = balanced_at(n, 0.9), Interaction.from_law(ContactLaw(kt=1e-4))
+    rigidity(packing, interaction)
+    return cpu(rigidity, packing, interaction)
 
 
 def all_modes(n: int) -> float:
     """All eigenvalues with ψ and p."""
-    packing, rule = balanced_at(n, 0.9), interaction(ContactLaw(kt=1e-4))
-    spectrum(quenched(16, 0.9), rule)
-    return cpu(spectrum, packing, rule)
+    packing, interaction = balanced_at(n, 0.9), Interaction.from_law(ContactLaw(kt=1e-4))
+    spectrum(quenched(16, 0.9), interaction)
+    return cpu(spectrum, packing, interaction)
 
 
 def density_of_states(n: int, backend: str = "auto") -> float:
@@ -182,10 +182,10 @@ def all_pairs(n: int) -> float:
 
 def weakly_frictional(n: int):
     """The eigenproblem at φ = 0.90, k_T/k_N = 1e-4."""
-    return problem(balanced_at(n, 0.9), interaction(ContactLaw(kt=1e-4)))
+    return problem(balanced_at(n, 0.9), Interaction.from_law(ContactLaw(kt=1e-4)))
 
 
-GRAINS_OF_C = interaction(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, 10.0))
+GRAINS_OF_C = Interaction.from_law(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, 10.0))
 SHEAR_OF_C = Shear(0.02, force_tolerance=5e-14)
 
 
@@ -235,7 +235,7 @@ def pairs_of_one_state(n: int, detection: str) -> float:
     return cpu(seen_by, DETECTORS[detection](), now)
 
 
-HARMONIC = interaction(ContactLaw("harmonic", "elastic", 1.0))
+HARMONIC = Interaction.from_law(ContactLaw("harmonic", "elastic", 1.0))
 
 
 def harmonic_at(n: int, phi: float):

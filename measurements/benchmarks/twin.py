@@ -17,7 +17,7 @@ import numba
 import numpy as np
 
 from grainmodes.kernels.laws import Hertz
-from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours
+from grainmodes.kernels.neighbours import FRACTION_UNIT, find_neighbours
 from grainmodes.kernels.repulsion import repulsion
 from grainmodes.relaxation.frictionless import SKIN
 
@@ -30,14 +30,14 @@ ROUNDS = 41
 @numba.njit(**FLAGS)
 def one_loop(x, y, scale, pairs, fx, fy):
     """Add the net forces to fx and fy (N,); x, y (N,) int64 in 2⁻⁶⁴ L, scale = 2⁻⁶⁴ L."""
-    left, right, reach = pairs.left, pairs.right, pairs.reach
+    left, right, contact_distance = pairs.left, pairs.right, pairs.contact_distance
     for pair in range(left.shape[0]):
         i, j = left[pair], right[pair]
         dx = np.float64(x[i] - x[j]) * scale
         dy = np.float64(y[i] - y[j]) * scale
         square = dx * dx + dy * dy
-        if square < reach[pair] * reach[pair]:
-            xi = reach[pair] - math.sqrt(square)
+        if square < contact_distance[pair] * contact_distance[pair]:
+            xi = contact_distance[pair] - math.sqrt(square)
             f = math.sqrt(xi * xi * xi / square)
             fx[i] += f * dx
             fy[i] += f * dy
@@ -55,8 +55,8 @@ def row_by_row(x, y, scale, pairs, fx, fy):
             dx = np.float64(x[i] - x[j]) * scale
             dy = np.float64(y[i] - y[j]) * scale
             square = dx * dx + dy * dy
-            if square < pairs.reach[pair] * pairs.reach[pair]:
-                xi = pairs.reach[pair] - math.sqrt(square)
+            if square < pairs.contact_distance[pair] * pairs.contact_distance[pair]:
+                xi = pairs.contact_distance[pair] - math.sqrt(square)
                 f = math.sqrt(xi * xi * xi / square)
                 sum_x += f * dx
                 sum_y += f * dy
@@ -79,13 +79,13 @@ def in_blocks(x, y, scale, pairs, fx, fy):
 
 @numba.njit(**FLAGS)
 def _pairs(x, y, scale, pairs, low, high, forces):
-    left, right, reach = pairs.left, pairs.right, pairs.reach
+    left, right, contact_distance = pairs.left, pairs.right, pairs.contact_distance
     for k in range(high - low):
         i, j = left[low + k], right[low + k]
         dx = np.float64(x[i] - x[j]) * scale
         dy = np.float64(y[i] - y[j]) * scale
         r = math.sqrt(dx * dx + dy * dy)
-        xi = max(reach[low + k] - r, 0.0)
+        xi = max(contact_distance[low + k] - r, 0.0)
         f = xi * math.sqrt(xi) / r
         forces[0, k] = f * dx
         forces[1, k] = f * dy
@@ -120,7 +120,7 @@ def by_hand(kernel) -> Callable:
     @numba.njit(**FLAGS)
     def repeated(x, y, box_length, pairs, fx, fy, times):
         for _ in range(times):
-            kernel(x, y, box_length * RESOLUTION, pairs, fx, fy)
+            kernel(x, y, box_length * FRACTION_UNIT, pairs, fx, fy)
 
     return repeated
 

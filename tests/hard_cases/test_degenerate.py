@@ -9,8 +9,8 @@ import naive
 import naive_failures
 from example_packings import crowd, crystal, elastic, quenched
 from grainmodes.dataset.files import Block
-from grainmodes.kernels.laws import Hertz, interaction
-from grainmodes.kernels.springs import kept_displacement
+from grainmodes.kernels.laws import Hertz, Interaction
+from grainmodes.kernels.springs import clip_springs
 from grainmodes.packing.contacts import Contacts
 from grainmodes.packing.forces import forces_on_i, sliding
 from grainmodes.packing.jacobian import stiffness_of
@@ -69,9 +69,12 @@ def test_a_crystal_has_every_eigenvalue_as_often_as_it_is_counted():
 
 def born(bracket: float) -> ExceptionalPoint:
     """The first birth of a pair among sixteen grains under the law of C, μ = 10."""
-    law = interaction(ContactLaw("hertz", "smoothed_coulomb", 2 / 7, 10.0))
+    interaction = Interaction.from_law(ContactLaw("hertz", "smoothed_coulomb", 2 / 7, 10.0))
     walk = PairWalk.start(
-        quenched(16, 0.9), law, Shear(strain=4.5e-3, step=5e-4), PairChoices(bracket=bracket)
+        quenched(16, 0.9),
+        interaction,
+        Shear(strain=4.5e-3, step=5e-4),
+        PairChoices(bracket=bracket),
     )
     while not walk.located:
         walk.advance()
@@ -95,16 +98,16 @@ def test_a_spring_at_its_threshold_slides(normal, tangential):
     """|s| = s* to rounding after a slip: a plain comparison takes some contacts for sticking."""
     law = ContactLaw(normal, tangential, 0.3, 0.4)
     overlap = np.random.default_rng(0).uniform(1e-6, 0.1, 1000)
-    s = kept_displacement(interaction(law), overlap, np.full(1000, 1e3))
+    s = clip_springs(Interaction.from_law(law), overlap, np.full(1000, 1e3))
     np.testing.assert_allclose(s, naive.threshold(law, overlap), rtol=1e-14)
     normal_force = naive.normal_force(law, overlap)
     if normal == "hertz":
         held = s if tangential.endswith("force") else 0.3 * np.sqrt(overlap) * s
         assert np.mean(held < 0.4 * normal_force) > 0.1
     contacts = lying_along_x(overlap, s)
-    assert sliding(contacts, interaction(law)).all()
-    np.testing.assert_array_equal(stiffness_of(contacts, interaction(law))[:, 2, 2], 0.0)
-    force = np.abs(forces_on_i(contacts, interaction(law))[:, 2])
+    assert sliding(contacts, Interaction.from_law(law)).all()
+    np.testing.assert_array_equal(stiffness_of(contacts, Interaction.from_law(law))[:, 2, 2], 0.0)
+    force = np.abs(forces_on_i(contacts, Interaction.from_law(law))[:, 2])
     np.testing.assert_allclose(force, 0.4 * normal_force, rtol=1e-15)
 
 
@@ -113,7 +116,7 @@ def test_a_smoothed_spring_has_one_stiffness_at_its_threshold(normal):
     """Both sides agree at s*; a difference across that of the sharp law is the mean of its two."""
     law, overlap = ContactLaw(normal, "smoothed_coulomb", 0.3, 0.4), np.full(3, 0.01)
     s = naive.threshold(law, overlap) * [1.0 - 1e-9, 1.0, 1.0 + 1e-9]
-    stiffness = stiffness_of(lying_along_x(overlap, s), interaction(law))
+    stiffness = stiffness_of(lying_along_x(overlap, s), Interaction.from_law(law))
     np.testing.assert_allclose(stiffness[[0, 2]], stiffness[[1, 1]], atol=1e-8)
     sharp = replace(law, tangential="sharp_coulomb")
     ends = [naive.tangential_force(sharp, 0.01, s[1] * part) for part in (1.0 + 1e-3, 1.0 - 1e-3)]

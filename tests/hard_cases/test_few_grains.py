@@ -56,18 +56,18 @@ def test_ten_grains_fit_at_every_strain(strain):
     assert list(zip(contacts.i, contacts.j, strict=True)) == [(p.i, p.j) for p in pairs_of(sheared)]
     with pytest.raises(PackingError, match="meets two images"):
         packing.sheared(0.9)
-    law = elastic("hertz", 1e-2)
-    simulated = step_strain(packing, law, StepStrain())
-    assert rigidity(packing, law).unloaded.g == pytest.approx(simulated.g, rel=1e-6)
+    interaction = elastic("hertz", 1e-2)
+    simulated = step_strain(packing, interaction, StepStrain())
+    assert rigidity(packing, interaction).unloaded.g == pytest.approx(simulated.g, rel=1e-6)
 
 
 def test_a_stable_packing_may_have_a_negative_g():
     """σ then falls without an event: a rule that takes each fall for one finds one a step."""
-    packing, law = quenched(64, 0.845), elastic("hertz", 1e-8)
-    g = rigidity(packing, law).unloaded.g
-    assert g < -1e-4 and not Balance.of(packing, law).unstable
-    assert g == pytest.approx(step_strain(packing, law, StepStrain()).g, rel=1e-6)
-    walk = Walk.start(packing, law, Shear(strain=3e-6, step=1e-6, min_step=1e-8))
+    packing, interaction = quenched(64, 0.845), elastic("hertz", 1e-8)
+    g = rigidity(packing, interaction).unloaded.g
+    assert g < -1e-4 and not Balance.of(packing, interaction).unstable
+    assert g == pytest.approx(step_strain(packing, interaction, StepStrain()).g, rel=1e-6)
+    walk = Walk.start(packing, interaction, Shear(strain=3e-6, step=1e-6, min_step=1e-8))
     while not walk.done:
         walk.advance()
     sigma = [point.stress[0, 1] + point.stress[1, 0] for point in walk.curve]

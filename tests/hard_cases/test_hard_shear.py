@@ -8,8 +8,8 @@ import pytest
 import naive_dynamics as slow
 from example_packings import MINIMAL, crowd, pairs_of, reference
 from grainmodes.kernels.damping import Drag
-from grainmodes.kernels.laws import Hertz, interaction
-from grainmodes.kernels.neighbours import RESOLUTION
+from grainmodes.kernels.laws import Hertz, Interaction
+from grainmodes.kernels.neighbours import FRACTION_UNIT
 from grainmodes.packing.forces import energy, net_force, stress
 from grainmodes.packing.state import Packing, PackingError, find_contacts
 from grainmodes.parameters.law import ContactLaw
@@ -25,19 +25,19 @@ from grainmodes.stages.packings import step_strain_block
 from grainmodes.stages.rows import block_of
 from grainmodes.stages.samples import packed
 
-FRICTION = interaction(ContactLaw("harmonic", "elastic", 1.0))
-FREE = interaction(ContactLaw("harmonic"))
+FRICTION = Interaction.from_law(ContactLaw("harmonic", "elastic", 1.0))
+FREE = Interaction.from_law(ContactLaw("harmonic"))
 CHOICES = Shear(0.1, 1e-3, 1e-6)
 
 
-def before_the_first_event(name: str, law) -> Balance:
+def before_the_first_event(name: str, interaction) -> Balance:
     """The last balance before the first plastic event, which is 1e-6 away."""
-    walk = Walk.start(reference(name)[1], law, CHOICES)
+    walk = Walk.start(reference(name)[1], interaction, CHOICES)
     return next(before for before, _ in steps(walk) if walk.events).balance
 
 
-def sigma(packing: Packing, law) -> float:
-    return float(stress(packing, find_contacts(packing), law)[0, 1])
+def sigma(packing: Packing, interaction) -> float:
+    return float(stress(packing, find_contacts(packing), interaction)[0, 1])
 
 
 def test_newton_from_beyond_an_event_is_not_believed():
@@ -73,17 +73,22 @@ def image_of(packing: Packing, number: int) -> Packing:
 @pytest.mark.parametrize("strain", [0.5, -0.5, 0.3])
 def test_ten_images_further_every_contact_is_found(strain):
     """γ + 10 with the old fractions misses contacts; it is refused, and its image is exact."""
-    law, packing = interaction(ContactLaw("hertz", "elastic", 0.3)), crowd(3, strain=strain)
+    interaction, packing = (
+        Interaction.from_law(ContactLaw("hertz", "elastic", 0.3)),
+        crowd(3, strain=strain),
+    )
     for number in range(1, 11):
         further = image_of(packing, number)
         far, there = find_contacts(replace(packing, strain=strain + number)), find_contacts(further)
         assert len(far.i) <= len(there.i) == len(pairs_of(further))
         affine = packing.position + packing.box_length * number * np.outer(
-            packing.fraction[1] * RESOLUTION + 0.5, [1.0, 0.0]
+            packing.fraction[1] * FRACTION_UNIT + 0.5, [1.0, 0.0]
         )
         twin = Packing.from_positions(affine, packing.diameter, packing.box_length, strain)
         np.testing.assert_allclose(
-            net_force(further, there, law), net_force(twin, find_contacts(twin), law), atol=1e-13
+            net_force(further, there, interaction),
+            net_force(twin, find_contacts(twin), interaction),
+            atol=1e-13,
         )
     assert len(far.i) < len(there.i)
     with pytest.raises(PackingError, match="box_length: expected more than"):
@@ -103,7 +108,7 @@ def test_a_time_step_far_too_long_is_refused(time_step):
     assert np.nanmax(np.abs(now.velocity), initial=0.0) < 1e-14
     assert not np.abs(now.position - packing.position).max() < packing.box_length
     with pytest.raises(ArithmeticError, match=f"time_step = {time_step}: take a shorter one"):
-        relax_damped(packing, interaction(law), Drag(1.0), time_step, 1e-14, 10_000)
+        relax_damped(packing, Interaction.from_law(law), Drag(1.0), time_step, 1e-14, 10_000)
 
 
 def test_a_sample_whose_dynamics_breaks_down_is_a_failed_row():

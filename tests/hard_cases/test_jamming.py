@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from example_packings import ELASTIC, reference
-from grainmodes.kernels.laws import Hertz, interaction
+from grainmodes.kernels.laws import Hertz, Interaction
 from grainmodes.packing.forces import largest, mean_contact_force, net_force, stress
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing, find_contacts
@@ -21,7 +21,7 @@ from grainmodes.stages.packings import rigidity_block
 from grainmodes.stages.rows import block_of
 from grainmodes.stages.samples import is_jammed, packed
 
-FREE = interaction(ContactLaw())
+FREE = Interaction.from_law(ContactLaw())
 LAW = ContactLaw(kt=1e-2)
 BUDGET = 200_000
 
@@ -70,16 +70,18 @@ def test_just_above_jamming_the_balance_is_that_of_the_contacts():
     assert naive.converged and naive.iterations == 0 and found.converged
     assert abs(load(naive.packing) / load(found.packing) - 1.0) > 0.005
     assert found.max_force < 1e-5 * load(found.packing)
-    theory = rigidity(above, interaction(LAW)).unloaded.g
-    simulated = step_strain(above, interaction(LAW), StepStrain()).g
+    theory = rigidity(above, Interaction.from_law(LAW)).unloaded.g
+    simulated = step_strain(above, Interaction.from_law(LAW), StepStrain()).g
     assert theory == pytest.approx(simulated, rel=1e-5)
 
 
 def test_at_jamming_contacts_and_pressure_make_no_solid(around):
     """An isostatic number of contacts, P > 0, max|F| < F_Th: and yet only what a balance leaves."""
     last, below = around
-    simulated = step_strain(last, interaction(LAW), StepStrain()).g
-    assert rigidity(last, interaction(LAW)).unloaded.g == pytest.approx(simulated, rel=0.02)
+    simulated = step_strain(last, Interaction.from_law(LAW), StepStrain()).g
+    assert rigidity(last, Interaction.from_law(LAW)).unloaded.g == pytest.approx(
+        simulated, rel=0.02
+    )
     pressed = [packing for packing in below if pressure(packing) > 0.0]
     isostatic = [p for p in pressed if len(find_contacts(p).i) >= 2 * p.n - 3]
     assert len(pressed) >= 3 and isostatic
@@ -91,7 +93,7 @@ def test_at_jamming_contacts_and_pressure_make_no_solid(around):
 def test_below_jamming_nothing_touches(around):
     free = [packing for packing in around[1] if not len(find_contacts(packing).i)]
     assert free
-    matrix = jacobian(free[0], find_contacts(free[0]), interaction(LAW)).toarray()
+    matrix = jacobian(free[0], find_contacts(free[0]), Interaction.from_law(LAW)).toarray()
     with pytest.raises(np.linalg.LinAlgError):
         np.linalg.solve(matrix[2:, 2:], np.ones(len(matrix) - 2))
     rows = rigidity_block(as_block(free), LAW, Rattlers()).variables

@@ -73,15 +73,15 @@ CASES = {
 @pytest.mark.parametrize("kt", [0.0, 0.1])
 @pytest.mark.parametrize("places", CASES.values(), ids=CASES.keys())
 def test_what_is_loose_does_not_change_g(places, kt):
-    law, packing = elastic("hertz", kt), crowded(*places)
+    interaction, packing = elastic("hertz", kt), crowded(*places)
     contacts = find_contacts(packing)
     degree = np.bincount(np.append(contacts.i, contacts.j), minlength=packing.n)[SOLID.n :]
     assert degree.max() <= 2
-    expected = rigidity(SOLID, law).unloaded.g
-    g, lowest = naive_failures.with_all_grains(packing, law)
+    expected = rigidity(SOLID, interaction).unloaded.g
+    g, lowest = naive_failures.with_all_grains(packing, interaction)
     assert np.isnan(g) or lowest < -1e-6 or abs(g / expected - 1.0) > 1e-5
-    assert problem(packing, law).size == (3 if kt else 2) * SOLID.n
-    assert rigidity(packing, law).unloaded.g == pytest.approx(expected, rel=1e-13)
+    assert problem(packing, interaction).size == (3 if kt else 2) * SOLID.n
+    assert rigidity(packing, interaction).unloaded.g == pytest.approx(expected, rel=1e-13)
 
 
 def test_a_chain_is_taken_off_grain_by_grain():
@@ -106,7 +106,7 @@ def test_a_loose_contact_is_let_go_at_once(places, monkeypatch):
 
 def test_two_contacts_may_hold_a_grain_by_friction():
     """At a threshold of 1 the grain in the cusp stays, and adds its three modes."""
-    law, packing = elastic("hertz", 0.1), crowded(*CASES["two contacts"])
-    assert problem(packing, law, threshold=1).size == 3 * (SOLID.n + 1)
-    lowest = np.linalg.eigvalsh(problem(packing, law, threshold=1).matrix.toarray())[2]
+    interaction, packing = elastic("hertz", 0.1), crowded(*CASES["two contacts"])
+    assert problem(packing, interaction, threshold=1).size == 3 * (SOLID.n + 1)
+    lowest = np.linalg.eigvalsh(problem(packing, interaction, threshold=1).matrix.toarray())[2]
     assert lowest > 1e-3

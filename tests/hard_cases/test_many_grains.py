@@ -7,8 +7,8 @@ import naive_failures
 from example_packings import MINIMAL, elastic, quenched, reference
 from grainmodes.kernels.damping import Undamped
 from grainmodes.kernels.dynamics import Stop
-from grainmodes.kernels.laws import Hertz, interaction
-from grainmodes.kernels.neighbours import RESOLUTION
+from grainmodes.kernels.laws import Hertz, Interaction
+from grainmodes.kernels.neighbours import FRACTION_UNIT
 from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.state import Packing, PackingError, find_contacts
 from grainmodes.parameters.law import ContactLaw
@@ -17,7 +17,7 @@ from grainmodes.relaxation.frictionless import relax_fast
 from grainmodes.response.moduli import rigidity
 
 COPIES = 64
-LAW = interaction(ContactLaw(kt=1e-4))
+INTERACTION = Interaction.from_law(ContactLaw(kt=1e-4))
 
 
 def rest(packing: Packing) -> float:
@@ -56,7 +56,7 @@ def test_fractions_hold_a_balance_that_positions_lose():
 def test_sixty_five_thousand_grains_come_to_rest():
     packing = quenched(65536, 0.9)
     assert rest(packing) < 1e-14 < rest(naive_failures.in_absolute_doubles(packing))
-    assert rigidity(packing, LAW).unloaded.g == pytest.approx(0.02, abs=0.002)
+    assert rigidity(packing, INTERACTION).unloaded.g == pytest.approx(0.02, abs=0.002)
 
 
 @pytest.mark.parametrize("crossings", [1_000, pytest.param(1_000_000, marks=pytest.mark.slow)])
@@ -65,8 +65,8 @@ def test_a_balance_that_crosses_the_boundary_again_and_again_stays_one(crossings
     packing, time_step = at_rest(), 1e-3
     step, steps = 0.45 * packing.box_length, int(crossings / 0.45)
     velocity = np.tile([step / time_step, 0.0, 0.0], (packing.n, 1))
-    end = move(packing, velocity, LAW, Undamped(), time_step, Stop(0.0, steps)).packing
-    moved = (end.fraction - packing.fraction) * RESOLUTION
+    end = move(packing, velocity, INTERACTION, Undamped(), time_step, Stop(0.0, steps)).packing
+    moved = (end.fraction - packing.fraction) * FRACTION_UNIT
     assert abs(moved[0, 0]) > 0.01
     assert np.ptp(moved, axis=1).max() < 1e-13
     assert rest(end) < 1e-14
@@ -79,11 +79,11 @@ def test_a_step_of_any_number_of_boxes_is_taken_whole(boxes):
     packing, step = at_rest(), np.zeros((16, 2))
     step[3] = boxes * packing.box_length
     with np.errstate(invalid="raise"):
-        moved = (packing.displaced(step).fraction - packing.fraction)[:, 3] * RESOLUTION
+        moved = (packing.displaced(step).fraction - packing.fraction)[:, 3] * FRACTION_UNIT
     expected = (boxes + 0.5) % 1.0 - 0.5
     np.testing.assert_allclose(moved, expected, atol=1e-15)
     with np.errstate(invalid="ignore"):
-        cast = np.rint(boxes / RESOLUTION).astype(np.int64) * RESOLUTION
+        cast = np.rint(boxes / FRACTION_UNIT).astype(np.int64) * FRACTION_UNIT
     assert (cast == pytest.approx(expected, abs=1e-15)) == (abs(boxes) <= 0.5)
     step[3] = np.nan
     with pytest.raises(PackingError, match="the step of grain 3"):

@@ -34,12 +34,12 @@ def test_zero_modes_are_those_of_the_rounding_of_the_matrix(kt):
 @STIFF
 def test_the_unloaded_step_is_no_quadratic_form(kt):
     """g_NA = −aᵀJ⁺a/L² ≤ 0 holds for a loaded step only; the unloaded g_NA is positive here."""
-    law = elastic("hertz", kt)
-    found = rigidity(PACKING, law)
-    step = AffineStep(PACKING, find_contacts(PACKING), law, loaded=False)
+    interaction = elastic("hertz", kt)
+    found = rigidity(PACKING, interaction)
+    step = AffineStep(PACKING, find_contacts(PACKING), interaction, loaded=False)
     form = -(step.force.ravel() @ found.unloaded.displacement.ravel()) / PACKING.box_length**2
     assert form < 0.0 < found.unloaded.g_nonaffine
-    simulated = step_strain(PACKING, law, StepStrain())
+    simulated = step_strain(PACKING, interaction, StepStrain())
     assert simulated.converged
     assert found.unloaded.g == pytest.approx(simulated.g, rel=1e-7)
     assert abs(found.unloaded.g_affine + form - simulated.g) > 0.1 * simulated.g
@@ -47,11 +47,13 @@ def test_the_unloaded_step_is_no_quadratic_form(kt):
 
 @STIFF
 def test_the_sum_over_modes_is_the_solve(kt):
-    law = elastic("hertz", kt)
-    modes = spectrum(PACKING, law)
+    interaction = elastic("hertz", kt)
+    modes = spectrum(PACKING, interaction)
     for loaded in (False, True):
-        direct = getattr(rigidity(PACKING, law), "loaded" if loaded else "unloaded").g
-        assert mode_sum(PACKING, law, modes, loaded=loaded).g == pytest.approx(direct, rel=1e-8)
+        direct = getattr(rigidity(PACKING, interaction), "loaded" if loaded else "unloaded").g
+        assert mode_sum(PACKING, interaction, modes, loaded=loaded).g == pytest.approx(
+            direct, rel=1e-8
+        )
 
 
 def test_a_time_step_that_did_for_weak_springs_is_refused_for_stiff_ones():

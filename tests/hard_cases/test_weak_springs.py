@@ -66,10 +66,10 @@ def test_rotations_below_the_lowest_safe_edge_are_counted_as_zero_modes():
 @pytest.mark.parametrize("kt", [1e-16, 1e-12, 1e-10])
 def test_rotations_of_a_step_have_a_limit(kt):
     """A pseudo-inverse cuts soft rotations off; as k_T → 0 they go to those of any small k_T."""
-    law = elastic("hertz", kt)
+    interaction = elastic("hertz", kt)
     limit = rigidity(SMALL, elastic("hertz", 1e-7)).loaded.displacement
-    found = rigidity(SMALL, law).loaded
-    eigenproblem = problem(SMALL, law)
+    found = rigidity(SMALL, interaction).loaded
+    eigenproblem = problem(SMALL, interaction)
     cut = np.linalg.pinv(eigenproblem.matrix.toarray(), rcond=1e-8, hermitian=True)
     spins = (cut @ (eigenproblem.matrix @ found.displacement.ravel()))[2::3]
     assert np.abs(limit[:, 2]).max() > 0.9 and np.abs(spins).max() < 1e-8

@@ -12,7 +12,7 @@ import xarray as xr
 from hypothesis import HealthCheck, settings
 
 import naive
-from grainmodes.kernels.laws import Hertz, Interaction, interaction
+from grainmodes.kernels.laws import Hertz, Interaction
 from grainmodes.packing.contacts import Contacts, History
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
@@ -90,7 +90,7 @@ def _history(data: xr.Dataset) -> History:
 
 def elastic(name: str, kt: float) -> Interaction:
     """The interaction of a reference file at one of its k_T."""
-    return interaction(ContactLaw(name.split("_")[0], "elastic", kt))
+    return Interaction.from_law(ContactLaw(name.split("_")[0], "elastic", kt))
 
 
 def smoothed_coulomb(data: xr.Dataset) -> ContactLaw:

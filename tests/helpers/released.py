@@ -10,7 +10,7 @@ import scipy.linalg
 
 from example_packings import SHEARED, reference, smoothed_coulomb
 from grainmodes.dataset.files import Block
-from grainmodes.kernels.laws import Interaction, interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.mass_weighted import generalized_mass
 from grainmodes.packing.state import find_contacts
@@ -29,19 +29,19 @@ def state() -> tuple[Unstable, ContactLaw, Interaction]:
     """N = 50, μ = 10, γ = 0.02: ω = 1.0118 + 0.0017i, one of eight pairs."""
     data, packing = reference(SHEARED)
     law = smoothed_coulomb(data)
-    rule = interaction(law)
+    interaction = Interaction.from_law(law)
     mass = generalized_mass(packing.mass).ravel()
-    matrix = jacobian(packing, find_contacts(packing), rule).toarray() / mass[:, None]
+    matrix = jacobian(packing, find_contacts(packing), interaction).toarray() / mass[:, None]
     values, vectors = scipy.linalg.eig(matrix)
     fastest = np.argmax(np.sqrt(values).imag)
     turning = replace(packing, rotation=np.zeros(packing.n))
-    return Unstable(turning, values[fastest], vectors[:, fastest].reshape(-1, 3)), law, rule
+    return Unstable(turning, values[fastest], vectors[:, fastest].reshape(-1, 3)), law, interaction
 
 
 def released(choices: Release = SHORT, drag: float = 0.0) -> Run:
     """A whole release of this state."""
-    start, _, rule = state()
-    run = Run.begin(start, rule, choices, drag)
+    start, _, interaction = state()
+    run = Run.begin(start, interaction, choices, drag)
     while not run.done:
         run.advance()
     return run

@@ -65,11 +65,11 @@ ANGLES = (0.0, 0.4, np.pi / 2, 2.5, -1.1)
 def test_force_and_torque_of_two_grains(normal, angle):
     f, _, k = force(normal)
     packing = pair(angle, S)
-    law, contacts = elastic(normal, KT), find_contacts(packing)
+    interaction, contacts = elastic(normal, KT), find_contacts(packing)
     on_i = turned(angle) @ [f, k * S, -k * S]
-    np.testing.assert_allclose(forces_on_i(contacts, law), [on_i], atol=1e-14)
+    np.testing.assert_allclose(forces_on_i(contacts, interaction), [on_i], atol=1e-14)
     expected = [[-on_i[0], -on_i[1], on_i[2]], on_i]
-    np.testing.assert_allclose(net_force(packing, contacts, law), expected, atol=1e-14)
+    np.testing.assert_allclose(net_force(packing, contacts, interaction), expected, atol=1e-14)
 
 
 @pytest.mark.parametrize("angle", ANGLES)

@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
@@ -24,15 +24,15 @@ pytestmark = pytest.mark.slow
 def grains_of_c(normal: str) -> Packing:
     """64 grains of diameters 1 and 1.4, every mass 1."""
     protocol = Compression(phi_step=1e-2, large_diameter=1.4, masses="equal")
-    law = interaction(ContactLaw(normal)).normal
+    law = Interaction.from_law(ContactLaw(normal)).normal
     return compress_to(place_at_random(64, SEED[normal], law, protocol), 0.9, law, protocol).packing
 
 
 @cache
 def seen(normal: str, tangential: str, mu: float | None = None) -> list[Seen]:
     """The states along the way under a law."""
-    rule = interaction(ContactLaw(normal, tangential, KT, mu))
-    found = variant(grains_of_c(normal), rule, CHOICES)
+    interaction = Interaction.from_law(ContactLaw(normal, tangential, KT, mu))
+    found = variant(grains_of_c(normal), interaction, CHOICES)
     assert not found.ending
     return found.seen
 

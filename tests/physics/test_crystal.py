@@ -52,10 +52,10 @@ def moduli(normal: str, a: float, b: float, kt: float, loaded: bool) -> tuple[fl
 @pytest.mark.parametrize("normal", ["hertz", "harmonic"])
 def test_moduli_of_the_crystal(normal, kt):
     packing = crystal(COLUMNS, ROWS, 0.95)
-    law = elastic(normal, kt)
-    assert largest(net_force(packing, find_contacts(packing), law))[0] < 1e-14
+    interaction = elastic(normal, kt)
+    assert largest(net_force(packing, find_contacts(packing), interaction))[0] < 1e-14
     a, b = packing.box_length / COLUMNS, packing.box_length / ROWS
-    found = rigidity(packing, law)
+    found = rigidity(packing, interaction)
     for moduli_found, loaded in ((found.unloaded, False), (found.loaded, True)):
         affine, nonaffine = moduli(normal, a, b, kt, loaded)
         assert moduli_found.g_affine == pytest.approx(affine, rel=1e-11)

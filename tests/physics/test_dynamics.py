@@ -7,7 +7,7 @@ import naive_dynamics as slow
 from example_packings import crowd, pairs_of, reference
 from grainmodes.kernels.damping import Dashpot, Drag, Undamped
 from grainmodes.kernels.dynamics import Stop
-from grainmodes.kernels.laws import Elastic, Hertz, Interaction, interaction
+from grainmodes.kernels.laws import Elastic, Hertz, Interaction
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.dynamics import Motion, move, relax_damped
@@ -15,7 +15,7 @@ from grainmodes.relaxation.dynamics import Motion, move, relax_damped
 HARMONIC = ContactLaw("harmonic", "elastic", 0.5)
 BARE = ContactLaw("hertz")
 LAWS = {
-    "harmonic elastic": (HARMONIC, interaction(HARMONIC)),
+    "harmonic elastic": (HARMONIC, Interaction.from_law(HARMONIC)),
     "frictionless Hertz": (BARE, Interaction(Hertz(1.0), Elastic(0.0))),
 }
 """The laws that have an energy: the slow twin's, and the package's with torque and history."""
@@ -28,12 +28,12 @@ def energy(law: ContactLaw, motion: Motion) -> float:
     return slow.energy(scene, slow.Moving(packing.position, motion.velocity, None, slip))
 
 
-def record(packing: Packing, velocity, rule, damping, dt: float, looks: int, between: int):
+def record(packing: Packing, velocity, interaction, damping, dt: float, looks: int, between: int):
     """The motion now and then."""
     motion = Motion(packing, velocity, 0, np.inf)
     yield motion
     for _ in range(looks):
-        motion = move(motion.packing, motion.velocity, rule, damping, dt, Stop(0.0, between))
+        motion = move(motion.packing, motion.velocity, interaction, damping, dt, Stop(0.0, between))
         yield motion
 
 
@@ -44,11 +44,13 @@ def stirred(n: int, size: float) -> np.ndarray:
 @pytest.mark.parametrize("damping", [Dashpot(0.5), Drag(0.5)])
 @pytest.mark.parametrize("name", LAWS)
 def test_energy_never_rises_in_damped_dynamics(name, damping):
-    law, rule = LAWS[name]
+    law, interaction = LAWS[name]
     packing = crowd(61, strain=0.3)
     history = [
         energy(law, m)
-        for m in record(packing, stirred(16, 0.1), rule, damping, 2e-3, looks=120, between=10)
+        for m in record(
+            packing, stirred(16, 0.1), interaction, damping, 2e-3, looks=120, between=10
+        )
     ]
     assert history[-1] < 0.7 * history[0]
     assert np.diff(history).max() < 1e-7 * history[0]
@@ -56,7 +58,7 @@ def test_energy_never_rises_in_damped_dynamics(name, damping):
 
 @pytest.mark.parametrize("name", LAWS)
 def test_energy_is_kept_without_damping(name):
-    law, rule = LAWS[name]
+    law, interaction = LAWS[name]
     packing = reference("harmonic_n64_phi0.900_seed1")[1]
     if name != "harmonic elastic":
         packing = reference("hertz_n64_phi0.900_seed1")[1]
@@ -64,7 +66,7 @@ def test_energy_is_kept_without_damping(name):
     rest = energy(law, Motion(packing, 0 * start, 0, 0.0))
     history = [
         energy(law, m) - rest
-        for m in record(packing, start, rule, Undamped(), 2e-3, looks=20, between=50)
+        for m in record(packing, start, interaction, Undamped(), 2e-3, looks=20, between=50)
     ]
     np.testing.assert_allclose(history, history[0], rtol=2e-2)
 
@@ -72,7 +74,7 @@ def test_energy_is_kept_without_damping(name):
 @pytest.mark.parametrize("damping", [Dashpot(0.5), Undamped()])
 def test_momentum_is_kept(damping):
     packing, start = crowd(62), stirred(16, 0.1)
-    end = move(packing, start, interaction(HARMONIC), damping, 1e-2, Stop(0.0, 300))
+    end = move(packing, start, Interaction.from_law(HARMONIC), damping, 1e-2, Stop(0.0, 300))
     before, after = (packing.mass @ v[:, :2] for v in (start, end.velocity))
     np.testing.assert_allclose(after, before, atol=1e-13)
 
@@ -96,8 +98,8 @@ def bounced(viscosity: float, rate: float, t: float, steps: int) -> tuple[float,
     overlap = 0.05
     start = np.array([[rate / 2, 0.0, 0.0], [-rate / 2, 0.0, 0.0]])
     damping = Dashpot(viscosity) if viscosity else Undamped()
-    rule = interaction(HARMONIC)
-    end = move(head_on(overlap), start, rule, damping, t / steps, Stop(0.0, steps))
+    interaction = Interaction.from_law(HARMONIC)
+    end = move(head_on(overlap), start, interaction, damping, t / steps, Stop(0.0, steps))
     xi, speed = bounce(viscosity, overlap, rate, t)
     found = find_contacts(end.packing).overlap[0]
     return abs(found - xi), abs(end.velocity[0, 0] - end.velocity[1, 0] - speed)
@@ -123,27 +125,27 @@ def test_drag_slows_every_motion_alike(axis):
     packing = Packing.from_positions([[1.0, 1.0], [4.0, 4.0]], [1.0, 0.7], 6.0)
     start = np.zeros((2, 3))
     start[:, axis] = 0.3
-    end = move(packing, start, interaction(HARMONIC), Drag(0.8), 1e-3, Stop(0.0, 1000))
+    end = move(packing, start, Interaction.from_law(HARMONIC), Drag(0.8), 1e-3, Stop(0.0, 1000))
     np.testing.assert_allclose(end.velocity[:, axis], 0.3 * np.exp(-0.8), rtol=1e-3)
 
 
 def test_dashpots_act_on_spin_as_on_sliding():
     """Two grains that roll on each other feel no friction; two that spin alike do."""
-    packing, rule = head_on(1e-6), interaction(HARMONIC)
+    packing, interaction = head_on(1e-6), Interaction.from_law(HARMONIC)
     for spins, slows in (((0.1, -0.1), False), ((0.1, 0.1), True)):
         start = np.zeros((2, 3))
         start[:, 2] = spins
-        end = move(packing, start, rule, Dashpot(1.0), 1e-3, Stop(0.0, 20))
+        end = move(packing, start, interaction, Dashpot(1.0), 1e-3, Stop(0.0, 20))
         assert np.all(np.abs(end.velocity[:, 2]) < 0.0999) == slows
 
 
 def test_slip_is_forgotten_when_a_contact_opens():
-    packing, rule = head_on(0.02), interaction(HARMONIC)
+    packing, interaction = head_on(0.02), Interaction.from_law(HARMONIC)
     start = np.zeros((2, 3))
     start[:, 2] = 0.05
-    touching = move(packing, start, rule, Undamped(), 1e-2, Stop(0.0, 20))
+    touching = move(packing, start, interaction, Undamped(), 1e-2, Stop(0.0, 20))
     assert abs(find_contacts(touching.packing).displacement[0]) > 1e-3
-    apart = move(touching.packing, touching.velocity, rule, Undamped(), 1e-2, Stop(0.0, 300))
+    apart = move(touching.packing, touching.velocity, interaction, Undamped(), 1e-2, Stop(0.0, 300))
     assert len(find_contacts(apart.packing).i) == 0
     assert len(apart.packing.history.i) == 0
 
@@ -152,19 +154,19 @@ def test_a_long_way_does_not_lose_neighbours():
     """Two grains that meet far from where the list of neighbours was made."""
     packing = Packing.from_positions([[1.0, 3.0], [5.0, 3.2]], np.ones(2), 8.0)
     start = np.array([[0.5, 0.0, 0.0], [-0.5, 0.0, 0.0]])
-    end = move(packing, start, interaction(HARMONIC), Undamped(), 1e-2, Stop(0.0, 600))
+    end = move(packing, start, Interaction.from_law(HARMONIC), Undamped(), 1e-2, Stop(0.0, 600))
     assert end.velocity[0, 0] < 0.4
     kinetic = np.sum(end.velocity[:, :2] ** 2) / 2 + np.sum(end.velocity[:, 2] ** 2) / 4
     assert kinetic < 0.25 + 1e-6
 
 
 def test_damped_relaxation_is_told_apart_from_running_out_of_steps():
-    packing, rule = (
+    packing, interaction = (
         reference("hertz_n16_phi0.900_seed1")[1].sheared(1e-4),
         LAWS["harmonic elastic"][1],
     )
-    rule = interaction(ContactLaw("hertz", "elastic", 1.0))
-    short = relax_damped(packing, rule, Dashpot(1.0), 1e-2, 1e-14, 100)
+    interaction = Interaction.from_law(ContactLaw("hertz", "elastic", 1.0))
+    short = relax_damped(packing, interaction, Dashpot(1.0), 1e-2, 1e-14, 100)
     assert not short.converged and short.iterations == 100 and short.max_force > 1e-14
-    long = relax_damped(packing, rule, Dashpot(1.0), 1e-2, 1e-14, 1_000_000)
+    long = relax_damped(packing, interaction, Dashpot(1.0), 1e-2, 1e-14, 1_000_000)
     assert long.converged and max(long.max_force, long.max_torque) < 1e-14

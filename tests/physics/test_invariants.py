@@ -16,7 +16,7 @@ from example_packings import (
     reference,
     smoothed_coulomb,
 )
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import net_force, stress
 from grainmodes.packing.state import Packing, find_contacts
@@ -81,11 +81,15 @@ def test_no_friction_loaded_or_not_only_softens(name):
     assert rigidity(reference(name)[1], elastic(name, 0.0)).unloaded.g_nonaffine <= 0.0
 
 
-def everything(packing: Packing, law) -> dict[str, np.ndarray]:
+def everything(packing: Packing, interaction) -> dict[str, np.ndarray]:
     """All that a block would hold of a packing."""
-    contacts, moduli, modes = find_contacts(packing), rigidity(packing, law), spectrum(packing, law)
+    contacts, moduli, modes = (
+        find_contacts(packing),
+        rigidity(packing, interaction),
+        spectrum(packing, interaction),
+    )
     return {
-        "stress": stress(packing, contacts, law),
+        "stress": stress(packing, contacts, interaction),
         "overlap": np.sort(contacts.overlap),
         "eigenvalue": modes.eigenvalue,
         "unloaded": moduli.unloaded.affine + moduli.unloaded.nonaffine,
@@ -101,7 +105,7 @@ def same(left: dict, right: dict, names=None) -> None:
 
 def slipped() -> tuple[Packing, object]:
     data, packing = reference(SHEARED)
-    return packing, interaction(smoothed_coulomb(data))
+    return packing, Interaction.from_law(smoothed_coulomb(data))
 
 
 def packings_and_laws() -> list:
@@ -130,24 +134,27 @@ def rearranged(packing: Packing, order: np.ndarray) -> Packing:
     )
 
 
-@pytest.mark.parametrize(("packing", "law"), packings_and_laws())
-def test_order_of_the_grains_does_not_matter(packing, law):
+@pytest.mark.parametrize(("packing", "interaction"), packings_and_laws())
+def test_order_of_the_grains_does_not_matter(packing, interaction):
     order = np.random.default_rng(0).permutation(packing.n)
-    same(everything(packing, law), everything(rearranged(packing, order), law))
+    same(everything(packing, interaction), everything(rearranged(packing, order), interaction))
 
 
-@pytest.mark.parametrize(("packing", "law"), packings_and_laws())
-def test_origin_does_not_matter(packing, law):
+@pytest.mark.parametrize(("packing", "interaction"), packings_and_laws())
+def test_origin_does_not_matter(packing, interaction):
     offset = np.array([[2**62 + 12345], [-(2**63)]], dtype=np.int64)
     same(
-        everything(packing, law),
-        everything(replace(packing, fraction=packing.fraction + offset), law),
+        everything(packing, interaction),
+        everything(replace(packing, fraction=packing.fraction + offset), interaction),
     )
 
 
-@pytest.mark.parametrize(("packing", "law"), packings_and_laws())
-def test_half_a_turn_changes_nothing(packing, law):
-    same(everything(packing, law), everything(replace(packing, fraction=-packing.fraction), law))
+@pytest.mark.parametrize(("packing", "interaction"), packings_and_laws())
+def test_half_a_turn_changes_nothing(packing, interaction):
+    same(
+        everything(packing, interaction),
+        everything(replace(packing, fraction=-packing.fraction), interaction),
+    )
 
 
 def mirrored(packing: Packing) -> Packing:
@@ -158,9 +165,9 @@ def mirrored(packing: Packing) -> Packing:
     return replace(packing, fraction=fraction, strain=-packing.strain, history=history)
 
 
-@pytest.mark.parametrize(("packing", "law"), packings_and_laws())
-def test_a_mirror_changes_no_modulus(packing, law):
-    left, right = everything(packing, law), everything(mirrored(packing), law)
+@pytest.mark.parametrize(("packing", "interaction"), packings_and_laws())
+def test_a_mirror_changes_no_modulus(packing, interaction):
+    left, right = everything(packing, interaction), everything(mirrored(packing), interaction)
     same(left, right, ["overlap", "eigenvalue"])
     for name in ("unloaded", "loaded", "affine"):
         np.testing.assert_allclose(np.diag(right[name][::-1]), np.diag(left[name][::-1]), rtol=1e-8)
@@ -177,8 +184,8 @@ def quarter_turn(packing: Packing) -> Packing:
 @pytest.mark.parametrize("kt", [0.0, 1e-2, 2.0])
 @pytest.mark.parametrize("name", ELASTIC[1:3])
 def test_a_quarter_turn_keeps_the_modes_and_turns_the_stress(name, kt):
-    packing, law = reference(name)[1], elastic(name, kt)
-    left, right = everything(packing, law), everything(quarter_turn(packing), law)
+    packing, interaction = reference(name)[1], elastic(name, kt)
+    left, right = everything(packing, interaction), everything(quarter_turn(packing), interaction)
     same(left, right, ["overlap", "eigenvalue"])
     turn = np.array([[0.0, -1.0], [1.0, 0.0]])
     np.testing.assert_allclose(right["stress"], turn @ left["stress"] @ turn.T, atol=1e-13)
@@ -187,9 +194,9 @@ def test_a_quarter_turn_keeps_the_modes_and_turns_the_stress(name, kt):
 @pytest.mark.parametrize("name", ELASTIC)
 def test_shear_along_y_is_shear_along_x_and_a_rotation(name):
     """Without friction dσ_xy/d(∂u_y/∂x) = g + σ_xx − σ_yy, which a quarter turn measures."""
-    packing, law = reference(name)[1], elastic(name, 0.0)
-    sigma = stress(packing, find_contacts(packing), law)
-    here, there = (rigidity(p, law).unloaded.g for p in (packing, quarter_turn(packing)))
+    packing, interaction = reference(name)[1], elastic(name, 0.0)
+    sigma = stress(packing, find_contacts(packing), interaction)
+    here, there = (rigidity(p, interaction).unloaded.g for p in (packing, quarter_turn(packing)))
     assert there == pytest.approx(here + sigma[0, 0] - sigma[1, 1], rel=1e-9, abs=1e-12)
 
 
@@ -201,5 +208,5 @@ def test_one_row_of_the_box_higher_is_one_shear_to_the_side(law):
     other = Packing.from_positions(
         position, packing.diameter, packing.box_length, -0.5, packing.mass, packing.history
     )
-    forces = [net_force(p, find_contacts(p), interaction(law)) for p in (packing, other)]
+    forces = [net_force(p, find_contacts(p), Interaction.from_law(law)) for p in (packing, other)]
     np.testing.assert_allclose(forces[0], forces[1], atol=1e-13)

@@ -65,8 +65,8 @@ def test_every_packing_is_in_balance_at_its_density(n, phi, seed, normal, relaxa
     force = naive.net_force(ContactLaw(normal), pairs_of(packing), n)
     # The positions of the slow twin are rounded to 1e-16 of the box.
     assert np.abs(force).max() < 2e-14
-    law = elastic(normal, 0.0)
-    assert largest(net_force(packing, find_contacts(packing), law))[0] < 1.1e-14
+    interaction = elastic(normal, 0.0)
+    assert largest(net_force(packing, find_contacts(packing), interaction))[0] < 1.1e-14
 
 
 @few(10)
@@ -130,14 +130,14 @@ def test_mode_sum_direct_solve_and_simulation_agree(n, phi, seed, normal, kt):
 @given(n=sizes, phi=dense, seed=seeds, normal=normals, kt=frictions)
 def test_spectrum_of_every_packing(n, phi, seed, normal, kt):
     packing = compressed(n, phi, seed, normal)
-    law, core = elastic(normal, kt), backbone(packing)
+    interaction, core = elastic(normal, kt), backbone(packing)
     if core.n == 0:
         return
-    found = spectrum(packing, law)
+    found = spectrum(packing, interaction)
     assert len(found.eigenvalue) == (3 if kt else 2) * core.n
     assert np.all(np.diff(found.eigenvalue) >= 0)
     assert found.residual < 1e-13 * max(1.0, kt)
-    matrix = jacobian(core, find_contacts(core), law)
+    matrix = jacobian(core, find_contacts(core), interaction)
     assert found.eigenvalue.sum() == pytest.approx(matrix.trace(), rel=1e-12)
     # A packing is a minimum, and friction that is not loaded only stiffens it.
     assert found.eigenvalue[0] > -1e-12 * max(1.0, kt)
@@ -175,8 +175,8 @@ def test_response_does_not_see_the_origin_or_the_numbering(n, phi, seed, shift):
         packing.mass[order],
         packing.box_length,
     )
-    law = elastic("hertz", 1e-2)
-    here, there = rigidity(packing, law), rigidity(other, law)
+    interaction = elastic("hertz", 1e-2)
+    here, there = rigidity(packing, interaction), rigidity(other, interaction)
     for way in ("unloaded", "loaded"):
         g, h = getattr(here, way).g, getattr(there, way).g
         assert g == pytest.approx(h, rel=1e-9, abs=1e-12)

@@ -15,8 +15,8 @@ from example_packings import (
     reference,
     smoothed_coulomb,
 )
-from grainmodes.kernels.fire import Pace, advance
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.fire import FireState, advance
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import stress
 from grainmodes.packing.hessian import effective_hessian
 from grainmodes.packing.jacobian import jacobian, stiffness_of
@@ -30,9 +30,9 @@ HERTZ, HARMONIC = ELASTIC[3], ELASTIC[5]
 KT = 1.0
 
 
-def ours(packing: Packing, law) -> np.ndarray:
+def ours(packing: Packing, interaction) -> np.ndarray:
     """J of the package, (N, 3, N, 3)."""
-    matrix = jacobian(packing, find_contacts(packing), law).toarray()
+    matrix = jacobian(packing, find_contacts(packing), interaction).toarray()
     return matrix.reshape(packing.n, 3, packing.n, 3)
 
 
@@ -49,16 +49,16 @@ def response(blocks: np.ndarray, force: np.ndarray) -> np.ndarray:
     return u
 
 
-def strained(packing: Packing, law, strain: float) -> Packing:
+def strained(packing: Packing, interaction, strain: float) -> Packing:
     """The packing after a step strain, relaxed by the full forces."""
-    relaxed = newton(packing.sheared(packing.strain + strain), law, 1e-15, 40)
+    relaxed = newton(packing.sheared(packing.strain + strain), interaction, 1e-15, 40)
     assert max(relaxed.max_force, relaxed.max_torque) < 1e-14
     return relaxed.packing
 
 
-def simulated_displacement(packing: Packing, law, strain: float = 1e-6) -> np.ndarray:
+def simulated_displacement(packing: Packing, interaction, strain: float = 1e-6) -> np.ndarray:
     """The non-affine displacement per unit strain that a simulated step shows, (N, 3)."""
-    after, before = strained(packing, law, strain), strained(packing, law, -strain)
+    after, before = strained(packing, interaction, strain), strained(packing, interaction, -strain)
     step = (after.fraction - before.fraction).T * 2.0**-64 * packing.box_length
     u = np.column_stack([step, after.rotation - before.rotation]) / (2 * strain)
     u[:, :2] -= u[:, :2].mean(axis=0)
@@ -107,14 +107,14 @@ def test_without_slip_the_printed_jacobian_of_paper_a_is_right():
 def test_jacobian_with_a_tilde_is_wrong(name):
     """A (36), (37); B (39), (40): not symmetric, not translation invariant, wrong displacements."""
     packing, _, moduli = unloaded(name)
-    law = elastic(name, KT)
-    right, wrong = ours(packing, law), printed_formulas.tilde(ours(packing, law))
+    interaction = elastic(name, KT)
+    right, wrong = ours(packing, interaction), printed_formulas.tilde(ours(packing, interaction))
     for blocks, holds in ((right, True), (wrong, False)):
         flat = blocks.reshape(3 * packing.n, -1)
         push = np.abs(blocks[:, :, :, :2].sum(axis=2)).max()
         assert (push < 1e-13) == holds
         assert (np.abs(flat - flat.T).max() < 1e-13) == holds
-    truth = simulated_displacement(packing, law)
+    truth = simulated_displacement(packing, interaction)
     assert error(moduli.displacement, truth) < 1e-4
     force = np.einsum("iajb,jb->ia", right, moduli.displacement)
     assert error(response(right, force), truth) < 1e-4
@@ -194,7 +194,7 @@ def test_tangent_rotates_with_the_contact(normal):
     """A (App. D, F) and B (App. D3) miss −(f_T/r) n tᵀ: B's J does not even depend on ξ_T."""
     law = ContactLaw(normal, "elastic", KT)
     packing = crowd(44, slip=0.4)
-    k = stiffness_of(find_contacts(packing), interaction(law))
+    k = stiffness_of(find_contacts(packing), Interaction.from_law(law))
     for pair, found in zip(pairs_of(packing), k, strict=True):
         still = naive.contact_stiffness(law, pair._replace(slip=0.0))
         n, _, r, xi = printed_formulas.parts(pair)
@@ -209,15 +209,16 @@ def test_tangent_rotates_with_the_contact(normal):
 def test_symmetrised_stress_needs_the_force_along_the_shear():
     """B (E8)–(E11), (43)–(44) drop f_y y_ij: g_yx is off by −σ_yy."""
     data, packing = reference(SHEARED)
-    law = interaction(smoothed_coulomb(data))
-    moduli = rigidity(packing, law).unloaded
+    interaction = Interaction.from_law(smoothed_coulomb(data))
+    moduli = rigidity(packing, interaction).unloaded
     g_yx = moduli.affine[1, 0] + moduli.nonaffine[1, 0]
     sigma = [
-        stress(p, find_contacts(p), law) for p in (strained(packing, law, s) for s in (1e-6, -1e-6))
+        stress(p, find_contacts(p), interaction)
+        for p in (strained(packing, interaction, s) for s in (1e-6, -1e-6))
     ]
     simulated = ((sigma[0] - sigma[1]) / 2e-6)[1, 0]
     assert g_yx == pytest.approx(simulated, rel=1e-5)
-    dropped = g_yx - stress(packing, find_contacts(packing), law)[1, 1]
+    dropped = g_yx - stress(packing, find_contacts(packing), interaction)[1, 1]
     assert dropped == pytest.approx(float(data.g_yx - data.sigma_yy), rel=1e-8)
     assert abs(dropped / simulated - 1) > 0.1
 
@@ -225,9 +226,9 @@ def test_symmetrised_stress_needs_the_force_along_the_shear():
 def test_imaginary_part_of_an_eigenpair():
     """C (25) reads J u_i = λ_i u_r + λ_r u_i, not + λ_r u_r."""
     data, packing = reference(SHEARED)
-    law = interaction(smoothed_coulomb(data))
-    matrix = jacobian(packing, find_contacts(packing), law)
-    found = spectrum(packing, law)
+    interaction = Interaction.from_law(smoothed_coulomb(data))
+    matrix = jacobian(packing, find_contacts(packing), interaction)
+    found = spectrum(packing, interaction)
     pair = np.argmax(found.eigenvalue.imag)
     value, mode = found.eigenvalue[pair], found.modes[:, pair]
     assert value.imag > 1e-4
@@ -240,14 +241,14 @@ def test_imaginary_part_of_an_eigenpair():
 @pytest.mark.parametrize(("name", "ratio"), [(HERTZ, 2.397), (HARMONIC, 1.0)])
 def test_constant_stiffnesses_of_the_effective_hessian_are_those_of_harmonic_grains(name, ratio):
     """A (H2) with k_N and k_T to the letter is too stiff for Hertzian grains; slopes give D."""
-    packing, law = reference(name)[1], elastic(name, KT)
+    packing, interaction = reference(name)[1], elastic(name, KT)
     contacts = find_contacts(packing)
     right, tangent, constant = (
         np.sqrt(np.linalg.eigvalsh(matrix.toarray())[2:])
         for matrix in (
-            jacobian(packing, contacts, law),
-            effective_hessian(packing, contacts, law),
-            effective_hessian(packing, contacts, law, "printed"),
+            jacobian(packing, contacts, interaction),
+            effective_hessian(packing, contacts, interaction),
+            effective_hessian(packing, contacts, interaction, "printed"),
         )
     )
     np.testing.assert_allclose(tangent, right, rtol=1e-11)
@@ -267,8 +268,8 @@ def test_mixing_of_fire_in_paper_a_steers_away_from_the_force():
 def mixed(velocity: np.ndarray, force: np.ndarray, mixing: float) -> np.ndarray:
     """The velocity after the mixing of our FIRE, without any kick."""
     steer = mixing * np.linalg.norm(velocity) / np.linalg.norm(force)
-    pace = Pace(0.0, mixing, 1, 1.0 - mixing, steer, 0.0)
+    state = FireState(0.0, mixing, 1, 1.0 - mixing, steer, 0.0)
     vx, vy, fx, fy = (np.array([value]) for value in (*velocity, *force))
     x, y = np.zeros(1, np.int64), np.zeros(1, np.int64)
-    advance(x, y, vx, vy, fx, fy, np.ones(1), pace, 1.0, 0.0)
+    advance(x, y, vx, vy, fx, fy, np.ones(1), state, 1.0, 0.0)
     return np.array([vx[0], vy[0]])

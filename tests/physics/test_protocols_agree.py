@@ -72,14 +72,14 @@ def test_distributions_do_not_depend_on_the_protocol(ensembles, name):
 @pytest.mark.parametrize("kt", [1e-2, 1.0, 10.0])
 def test_damped_dynamics_and_newton_reach_the_same_state(kt):
     """Twenty packings, stepped by 1e-6: the same places, spins and slips."""
-    protocol, law = Compression(phi_step=1e-2), elastic("hertz", kt)
+    protocol, interaction = Compression(phi_step=1e-2), elastic("hertz", kt)
     for seed in range(20):
         core = backbone(
             compress_to(place_at_random(24, seed, NORMAL, protocol), 0.9, NORMAL, protocol).packing
         )
         stepped = core.sheared(1e-6)
-        quick = newton(stepped, law, 1e-14, 40)
-        slow = relax_damped(stepped, law, Dashpot(1.0), 1e-2, 1e-14, 50_000_000)
+        quick = newton(stepped, interaction, 1e-14, 40)
+        slow = relax_damped(stepped, interaction, Dashpot(1.0), 1e-2, 1e-14, 50_000_000)
         assert quick.converged and slow.converged
         same_state(quick.packing, slow.packing)
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from example_packings import LAWS, crowd, law_name, quenched, reference
-from grainmodes.kernels.laws import Harmonic, interaction
+from grainmodes.kernels.laws import Harmonic, Interaction
 from grainmodes.packing.forces import net_force
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing, find_contacts, nonaffine_motion
@@ -28,7 +28,7 @@ SMALL = "harmonic_n64_phi0.900_seed1"
 
 def walked(packing: Packing, law: ContactLaw, choices: Shear) -> Walk:
     """A shear to its end."""
-    walk = Walk.start(packing, interaction(law), choices)
+    walk = Walk.start(packing, Interaction.from_law(law), choices)
     while not walk.done and walk.advance():
         pass
     return walk
@@ -168,7 +168,7 @@ def test_the_critical_strain_does_not_depend_on_the_first_step(law):
     packing = reference(f"{law.normal}_n64_phi0.860_seed2")[1]
     brackets = []
     for step in (1e-3, 1e-4):
-        walk = Walk.start(packing, interaction(law), Shear(0.2, step, 1e-8))
+        walk = Walk.start(packing, Interaction.from_law(law), Shear(0.2, step, 1e-8))
         while not walk.events and not walk.done and walk.advance():
             pass
         brackets.append([point.strain for point in walk.events[0].points])
@@ -181,7 +181,7 @@ def test_a_walk_taken_up_again_ends_with_the_same_bytes(law):
     packing = reference("harmonic_n64_phi0.860_seed2")[1]
     choices = Shear(strain=0.01, step=1e-4, min_step=1e-7)
     whole = row_of(walked(packing, law, choices))
-    walk, stops = Walk.start(packing, interaction(law), choices), 0
+    walk, stops = Walk.start(packing, Interaction.from_law(law), choices), 0
     while not walk.done and walk.advance():
         if walk.restartable:
             walk, stops = pickle.loads(pickle.dumps(walk)), stops + 1
@@ -197,16 +197,16 @@ def test_a_box_at_one_half_is_the_box_at_minus_one_half():
     packing = crowd(3, strain=0.5, slip=0.3)
     x, y = packing.fraction
     other = replace(packing, fraction=np.stack([x + y, y]), strain=-0.5)
-    rule = interaction(LAWS[0])
+    interaction = Interaction.from_law(LAWS[0])
     one, two = (find_contacts(state) for state in (packing, other))
     np.testing.assert_array_equal(one.i, two.i)
     np.testing.assert_allclose(one.normal, two.normal, atol=1e-14)
-    forces = [net_force(packing, contacts, rule) for contacts in (one, two)]
+    forces = [net_force(packing, contacts, interaction) for contacts in (one, two)]
     np.testing.assert_allclose(*forces, atol=1e-13)
-    stiff = [jacobian(packing, contacts, rule).toarray() for contacts in (one, two)]
+    stiff = [jacobian(packing, contacts, interaction).toarray() for contacts in (one, two)]
     np.testing.assert_allclose(*stiff, atol=1e-13)
 
 
 def test_the_first_balance_must_be_stable():
     with pytest.raises(ArithmeticError, match="no stable balance near the packing"):
-        first_balance(crowd(1), interaction(B), Shear())
+        first_balance(crowd(1), Interaction.from_law(B), Shear())

@@ -7,7 +7,7 @@ import pytest
 import scipy.sparse as sparse
 
 from example_packings import reference
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.quasistatic import step_to
@@ -23,7 +23,7 @@ CHOICES = Shear(strain=1e-3, step=1e-4, min_step=1e-8)
 @pytest.fixture(scope="module")
 def walk():
     """A sheared packing, its springs loaded."""
-    walk = Walk.start(reference("harmonic_n64_phi0.900_seed1")[1], interaction(B), CHOICES)
+    walk = Walk.start(reference("harmonic_n64_phi0.900_seed1")[1], Interaction.from_law(B), CHOICES)
     while not walk.done and walk.advance():
         pass
     return walk
@@ -34,12 +34,12 @@ def test_only_springs_that_start_anew_have_reopened(walk):
     after, _ = step_to(before.packing.strain + 1e-5, before, CHOICES)
     history, loads = after.packing.history, np.abs(before.packing.history.spring_state)
     assert np.array_equal(history.i, before.packing.history.i)
-    assert reopened(before.packing, after.packing, interaction(B)) == 0
+    assert reopened(before.packing, after.packing, Interaction.from_law(B)) == 0
     for count in (1, 3):
         s = history.spring_state.copy()
         s[np.argsort(loads)[-count:]] = 0.0
         renewed = replace(after.packing, history=replace(history, spring_state=s))
-        assert reopened(before.packing, renewed, interaction(B)) == count
+        assert reopened(before.packing, renewed, Interaction.from_law(B)) == count
 
 
 def test_loaded_springs_cost_the_jacobian_its_symmetry(walk):

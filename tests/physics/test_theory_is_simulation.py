@@ -20,22 +20,22 @@ KTS = (0.0, 1e-8, 1e-4, 1e-2, 1.0, 2.0, 10.0)
 @pytest.mark.parametrize("kt", KTS)
 @pytest.mark.parametrize("name", ELASTIC)
 def test_unloaded_step(name, kt):
-    packing, law = reference(name)[1], elastic(name, kt)
-    simulated = step_strain(packing, law, StepStrain())
+    packing, interaction = reference(name)[1], elastic(name, kt)
+    simulated = step_strain(packing, interaction, StepStrain())
     assert simulated.converged and simulated.contact_changes == 0
     assert max(simulated.max_force, simulated.max_torque) < 1e-14
-    theory = rigidity(packing, law).unloaded.g
+    theory = rigidity(packing, interaction).unloaded.g
     assert simulated.g == pytest.approx(theory, rel=1e-5)
     assert simulated.g_forward == pytest.approx(theory, rel=1e-2)
     assert abs(simulated.g - theory) <= max(10 * simulated.error, 1e-7 * abs(theory))
 
 
-def continuously_sheared(packing: Packing, law, strain: float) -> Packing:
+def continuously_sheared(packing: Packing, interaction, strain: float) -> Packing:
     """A step that the tangential springs feel, relaxed."""
     contacts = find_contacts(packing)
     slide = contacts.normal[:, 1] * contacts.normal[:, 1] * contacts.distance * strain
     history = History(contacts.i, contacts.j, slide)
-    relaxed = newton(replace(packing, history=history).sheared(strain), law, 1e-14, 40)
+    relaxed = newton(replace(packing, history=history).sheared(strain), interaction, 1e-14, 40)
     assert relaxed.converged
     return relaxed.packing
 
@@ -43,18 +43,18 @@ def continuously_sheared(packing: Packing, law, strain: float) -> Packing:
 @pytest.mark.parametrize("kt", KTS[1:])
 @pytest.mark.parametrize("name", ELASTIC)
 def test_loaded_step(name, kt):
-    packing, law = reference(name)[1], elastic(name, kt)
-    ends = [continuously_sheared(packing, law, step) for step in (1e-6, -1e-6)]
-    sigma = [stress(end, find_contacts(end), law)[0, 1] for end in ends]
+    packing, interaction = reference(name)[1], elastic(name, kt)
+    ends = [continuously_sheared(packing, interaction, step) for step in (1e-6, -1e-6)]
+    sigma = [stress(end, find_contacts(end), interaction)[0, 1] for end in ends]
     simulated = (sigma[0] - sigma[1]) / 2e-6
-    assert simulated == pytest.approx(rigidity(packing, law).loaded.g, rel=1e-5)
+    assert simulated == pytest.approx(rigidity(packing, interaction).loaded.g, rel=1e-5)
 
 
 @pytest.mark.parametrize("strain", [1e-6, 1e-5, 1e-4])
 def test_size_of_the_step_does_not_matter(strain):
-    packing, law = reference(ELASTIC[3])[1], elastic("hertz", 1e-2)
-    simulated = step_strain(packing, law, StepStrain(strain=strain))
-    theory = rigidity(packing, law).unloaded.g
+    packing, interaction = reference(ELASTIC[3])[1], elastic("hertz", 1e-2)
+    simulated = step_strain(packing, interaction, StepStrain(strain=strain))
+    theory = rigidity(packing, interaction).unloaded.g
     assert simulated.converged
     assert simulated.g == pytest.approx(theory, rel=1e-5)
     assert simulated.g_forward == pytest.approx(theory, rel=1e-3)
@@ -63,9 +63,10 @@ def test_size_of_the_step_does_not_matter(strain):
 @pytest.mark.parametrize("kt", [1.0, 10.0])
 @pytest.mark.parametrize("name", MINIMAL)
 def test_damped_dynamics_end_where_newton_does(name, kt):
-    packing, law = reference(name)[1], elastic(name, kt)
+    packing, interaction = reference(name)[1], elastic(name, kt)
     newtonian, damped = (
-        step_strain(packing, law, StepStrain(relaxation=way)) for way in ("newton", "damped")
+        step_strain(packing, interaction, StepStrain(relaxation=way))
+        for way in ("newton", "damped")
     )
     assert damped.converged
     assert max(damped.max_force, damped.max_torque) < 1e-14
@@ -76,10 +77,10 @@ def test_damped_dynamics_end_where_newton_does(name, kt):
 def test_rattlers_do_not_disturb_a_step():
     packing = reference(MINIMAL[0])[1]
     with_guest = guest_in_a_gap(packing)
-    law = elastic("hertz", 1.0)
-    found = step_strain(with_guest, law, StepStrain())
+    interaction = elastic("hertz", 1.0)
+    found = step_strain(with_guest, interaction, StepStrain())
     assert found.converged
-    assert found.g == pytest.approx(step_strain(packing, law, StepStrain()).g, rel=1e-9)
+    assert found.g == pytest.approx(step_strain(packing, interaction, StepStrain()).g, rel=1e-9)
 
 
 def guest_in_a_gap(packing: Packing) -> Packing:

@@ -29,11 +29,14 @@ COMPRESSED = [
 
 @pytest.mark.parametrize(("n", "seed", "pressure", "g", "g_loaded"), COMPRESSED)
 def test_seeds_keep_their_packings(n, seed, pressure, g, g_loaded):
-    law, protocol = elastic("hertz", 1e-2), Compression(phi_step=1e-2)
+    interaction, protocol = elastic("hertz", 1e-2), Compression(phi_step=1e-2)
     packing = compress_to(
-        place_at_random(n, seed, law.normal, protocol), 0.9, law.normal, protocol
+        place_at_random(n, seed, interaction.normal, protocol), 0.9, interaction.normal, protocol
     ).packing
-    sigma, moduli = stress(packing, find_contacts(packing), law), rigidity(packing, law)
+    sigma, moduli = (
+        stress(packing, find_contacts(packing), interaction),
+        rigidity(packing, interaction),
+    )
     found = [-np.trace(sigma) / 2, moduli.unloaded.g, moduli.loaded.g]
     np.testing.assert_allclose(found, [pressure, g, g_loaded], rtol=1e-10)
 
@@ -51,10 +54,10 @@ STORED = {
 
 @pytest.mark.parametrize("name", ELASTIC)
 def test_stored_packings_keep_their_numbers(name):
-    packing, law = reference(name)[1], elastic(name, 1.0)
+    packing, interaction = reference(name)[1], elastic(name, 1.0)
     contacts = find_contacts(packing)
     assert not rattlers(contacts, packing.n, 2).any()
-    found = spectrum(packing, law)
-    pressure = -np.trace(stress(packing, contacts, law)) / 2
+    found = spectrum(packing, interaction)
+    pressure = -np.trace(stress(packing, contacts, interaction)) / 2
     numbers = [pressure, len(contacts.i), found.eigenvalue.sum(), found.participation_ratio.mean()]
     np.testing.assert_allclose(numbers, STORED[name], rtol=1e-6)

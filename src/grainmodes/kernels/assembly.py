@@ -1,9 +1,8 @@
-"""Net forces and the sparse Jacobian from what acts in the contacts.
-
-The Jacobian is written column by column, without a sort.
+"""Net forces and the sparse Jacobian from the forces and stiffnesses of the contacts.
 
 Contacts are i > j sorted by (i, j). The block column of grain g therefore holds, ascending, the
-partners below g in the order of their contacts, g itself, and the partners above in theirs:
+partners below g in the order of their contacts, g itself, and the partners above in theirs. So the
+compressed columns are written one by one, without a sort:
 
     J_ji = −S K,   J_gg = −Σ K − Σ S K S,   J_ij = −K S        S = diag(signs)
 """
@@ -16,7 +15,7 @@ from grainmodes.kernels.compiler import kernel
 
 
 @kernel
-def on_grains(forces, signs, i, j, n):
+def sum_on_grains(forces, signs, i, j, n):
     """Sum of the forces (C, k) on grains i and, with their signs (k,), on grains j; (n, k)."""
     k = signs.shape[0]
     on_i, on_j = np.zeros((n, k)), np.zeros((n, k))
@@ -28,7 +27,7 @@ def on_grains(forces, signs, i, j, n):
 
 
 @kernel
-def columns_of(stiffness, signs, i, j, n):
+def jacobian_columns(stiffness, signs, i, j, n):
     """(data, indices, indptr) of J in compressed columns, (kn, kn) from K (C, k, k)."""
     k = signs.shape[0]
     start = block_starts(i, j, n)
@@ -39,25 +38,25 @@ def columns_of(stiffness, signs, i, j, n):
     indptr[k * n] = k * k * start[n]
     data, indices = np.zeros(k * k * start[n]), np.empty(k * k * start[n], np.int32)
     filled, own = np.zeros(n, np.int64), np.empty(n, np.int64)
-    turned = np.empty((k, k))
+    block = np.empty((k, k))
     for c in range(i.shape[0]):
         for a in range(k):
             for b in range(k):
-                turned[a, b] = -signs[a] * stiffness[c, a, b]
-        write_block(data, indices, indptr, j[c], i[c], filled[i[c]], turned)
+                block[a, b] = -signs[a] * stiffness[c, a, b]
+        put_block(data, indices, indptr, j[c], i[c], filled[i[c]], block)
         filled[i[c]] += 1
-    turned[:] = 0.0
+    block[:] = 0.0
     for grain in range(n):
         own[grain] = filled[grain]
-        write_block(data, indices, indptr, grain, grain, own[grain], turned)
+        put_block(data, indices, indptr, grain, grain, own[grain], block)
         filled[grain] += 1
     for c in range(i.shape[0]):
         for a in range(k):
             for b in range(k):
-                turned[a, b] = -stiffness[c, a, b] * signs[b]
+                block[a, b] = -stiffness[c, a, b] * signs[b]
                 data[indptr[k * i[c] + b] + k * own[i[c]] + a] -= stiffness[c, a, b]
-                data[indptr[k * j[c] + b] + k * own[j[c]] + a] += signs[a] * turned[a, b]
-        write_block(data, indices, indptr, i[c], j[c], filled[j[c]], turned)
+                data[indptr[k * j[c] + b] + k * own[j[c]] + a] += signs[a] * block[a, b]
+        put_block(data, indices, indptr, i[c], j[c], filled[j[c]], block)
         filled[j[c]] += 1
     return data, indices, indptr
 
@@ -77,8 +76,8 @@ def block_starts(i, j, n):
 
 
 @kernel
-def write_block(data, indices, indptr, row, column, place, block):
-    """Put a block (k, k) of grains (row, column) at a place in its block column."""
+def put_block(data, indices, indptr, row, column, place, block):
+    """Write the block (k, k) of grains (row, column) at a place in its block column."""
     k = block.shape[0]
     for b in range(k):
         at = indptr[k * column + b] + k * place

@@ -10,16 +10,16 @@ import numpy as np
 
 from grainmodes.kernels.compiler import kernel
 
-BLOCK = 256
+GRAINS_PER_BLOCK = 256
 """Grains per block: about 800 pairs, 13 kB of pair forces."""
 
 
 @kernel
 def pair_scratch(neighbours, components):
-    """Room for the pair forces of the fullest block; shape (components, P_max)."""
+    """An array for the pair forces of the largest block, (components, P_max) float64."""
     first = neighbours.first
     n = first.shape[0] - 1
     widest = 0
-    for begin in range(0, n, BLOCK):
-        widest = max(widest, first[min(begin + BLOCK, n)] - first[begin])
+    for begin in range(0, n, GRAINS_PER_BLOCK):
+        widest = max(widest, first[min(begin + GRAINS_PER_BLOCK, n)] - first[begin])
     return np.empty((components, widest))

@@ -19,22 +19,25 @@ from grainmodes.kernels.laws import normal_response, tangential_response
 
 
 @kernel
-def remembered(displacement, c):
-    """What the spring of contact c remembers; 0 where friction was never loaded."""
-    if displacement is None:
+def spring_at(spring_state, c):
+    """Spring state of contact c; 0 if friction was never loaded."""
+    if spring_state is None:
         return 0.0
-    return displacement[c]
+    return spring_state[c]
 
 
 @kernel
-def contact_forces(interaction, normal, overlap, displacement):
-    """(f_x, f_y, f_T) on grain i of every contact, (C, 3); `displacement` is (C,) or None."""
+def contact_forces(interaction, normal, overlap, spring_state):
+    """(f_x, f_y, f_T) on grain i of every contact, (C, 3) in k_N d^(3/2).
+
+    Args: normal (C, 2), overlap (C,) in d, spring_state (C,) or None.
+    """
     forces = np.empty((overlap.shape[0], 3))
     for c in range(overlap.shape[0]):
         nx, ny = normal[c, 0], normal[c, 1]
         f_n, _ = normal_response(interaction.normal, overlap[c])
         f_t, _, _ = tangential_response(
-            interaction.tangential, interaction.normal, overlap[c], remembered(displacement, c)
+            interaction.tangential, interaction.normal, overlap[c], spring_at(spring_state, c)
         )
         forces[c, 0] = f_n * nx + f_t * ny
         forces[c, 1] = f_n * ny - f_t * nx
@@ -43,15 +46,18 @@ def contact_forces(interaction, normal, overlap, displacement):
 
 
 @kernel
-def contact_stiffness(interaction, normal, distance, overlap, displacement):
-    """K of every contact, (C, 3, 3); `displacement` is (C,) or None."""
+def contact_stiffness(interaction, normal, distance, overlap, spring_state):
+    """K of every contact, (C, 3, 3) in k_N d^(1/2).
+
+    Args: normal (C, 2); distance, overlap (C,) in d; spring_state (C,) or None.
+    """
     stiffness = np.empty((overlap.shape[0], 3, 3))
     for c in range(overlap.shape[0]):
         n = normal[c]
         t = np.array([n[1], -n[0]])
         f_n, slope = normal_response(interaction.normal, overlap[c])
         f_t, by_s, by_xi = tangential_response(
-            interaction.tangential, interaction.normal, overlap[c], remembered(displacement, c)
+            interaction.tangential, interaction.normal, overlap[c], spring_at(spring_state, c)
         )
         for a in range(2):
             for b in range(2):
@@ -69,7 +75,7 @@ def contact_stiffness(interaction, normal, distance, overlap, displacement):
 
 @kernel
 def normal_forces(interaction, normal, overlap):
-    """(f_x, f_y) on grain i of every frictionless contact; shape (C, 2)."""
+    """(f_x, f_y) on grain i of every frictionless contact, (C, 2) in k_N d^(3/2)."""
     forces = np.empty((overlap.shape[0], 2))
     for c in range(overlap.shape[0]):
         f_n, _ = normal_response(interaction.normal, overlap[c])
@@ -80,7 +86,7 @@ def normal_forces(interaction, normal, overlap):
 
 @kernel
 def normal_stiffness(interaction, normal, distance, overlap):
-    """K of every frictionless contact, −f_N' n nᵀ + (f_N/r) t tᵀ; shape (C, 2, 2)."""
+    """K of every frictionless contact, −f_N' n nᵀ + (f_N/r) t tᵀ; (C, 2, 2) in k_N d^(1/2)."""
     stiffness = np.empty((overlap.shape[0], 2, 2))
     for c in range(overlap.shape[0]):
         nx, ny = normal[c, 0], normal[c, 1]
@@ -95,7 +101,7 @@ def normal_stiffness(interaction, normal, distance, overlap):
 
 @kernel
 def normal_slope(normal, overlap):
-    """∂f_N/∂ξ of every contact; (C,)."""
+    """∂f_N/∂ξ of every contact, (C,) in k_N d^(1/2)."""
     slope = np.empty(overlap.shape[0])
     for c in range(overlap.shape[0]):
         slope[c] = normal_response(normal, overlap[c])[1]

@@ -1,4 +1,4 @@
-"""How motion is damped; a type, so that what a scene does not damp costs nothing.
+"""How motion is damped. A damping is a type, so that terms that a scene does not use cost nothing.
 
 Dashpot    −η (v_N + v_T) on touching pairs                  A (7), (8)
 Drag       −m η ṙ and −I η θ̇ on every grain                  B; C's overdamped runs

@@ -24,11 +24,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.kernels.cache_blocks import BLOCK, pair_scratch
+from grainmodes.kernels.cache_blocks import GRAINS_PER_BLOCK, pair_scratch
 from grainmodes.kernels.compiler import kernel
 from grainmodes.kernels.damping import drag_rate, pair_viscosity
-from grainmodes.kernels.laws import admissible, advanced, normal_response, tangential_response
-from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours, separation
+from grainmodes.kernels.laws import (
+    advance_spring,
+    clip_to_coulomb,
+    normal_response,
+    tangential_response,
+)
+from grainmodes.kernels.neighbours import FRACTION_UNIT, find_neighbours, separation
 
 
 class Grains(NamedTuple):
@@ -48,27 +53,29 @@ class Grains(NamedTuple):
 
 
 class Stop(NamedTuple):
-    """When to stop: unrest < tolerance, looked at every LOOK steps, or after `steps`."""
+    """When to stop: residual motion < tolerance, every CHECK_INTERVAL steps, or after `steps`."""
 
     tolerance: float
     steps: int
 
 
-LOOK = 20
-"""Steps between two looks at the unrest, whose maxima cost as much as a kick."""
+CHECK_INTERVAL = 20
+"""Steps between two checks of the residual motion, whose maxima cost as much as a kick."""
 
-
-TINY = 1e-300
-"""Overlap lent to a pair that does not touch, so that its (unused) force is a number."""
+MIN_OVERLAP = 1e-300
+"""Overlap used for a pair that does not touch, so that its (unused) force is finite."""
 
 
 @kernel
 def pair_forces(
     grains, box_length, strain, time_step, pairs, begin, interaction, damping, spring, pair_force
 ):
-    """Advance the springs of pairs begin … and write (f_x, f_y, scaled torque) on grain i."""
-    scale = box_length * RESOLUTION
-    left, right, reach = pairs.left, pairs.right, pairs.reach
+    """Advance the springs of a block of pairs, from number `begin` on, and write their forces.
+
+    pair_force (3, P') receives (f_x, f_y, scaled torque) on grain i of every pair of the block.
+    """
+    scale = box_length * FRACTION_UNIT
+    left, right, contact_distance = pairs.left, pairs.right, pairs.contact_distance
     x, y, vx, vy, w = grains.x, grains.y, grains.vx, grains.vy, grains.w
     viscosity = pair_viscosity(damping)
     for k in range(pair_force.shape[1]):
@@ -77,20 +84,20 @@ def pair_forces(
         dx, dy = separation(x, y, i, j, scale, strain)
         ux, uy, spin = vx[i] - vx[j], vy[i] - vy[j], w[i] + w[j]
         distance = math.sqrt(dx * dx + dy * dy)
-        overlap = reach[pair] - distance
+        overlap = contact_distance[pair] - distance
         touch = 1.0 if overlap > 0.0 else 0.0
-        overlap = max(overlap, TINY)
+        overlap = max(overlap, MIN_OVERLAP)
         mx, my = dx - 0.5 * time_step * ux, dy - 0.5 * time_step * uy
         middle = math.sqrt(mx * mx + my * my)
         slide = (my * ux - mx * uy) / middle + spin
-        s = advanced(
+        s = advance_spring(
             interaction.tangential,
             interaction.normal,
-            max(reach[pair] - middle, TINY),
+            max(contact_distance[pair] - middle, MIN_OVERLAP),
             spring[pair],
             time_step * slide,
         )
-        s = admissible(interaction.tangential, interaction.normal, overlap, touch * s)
+        s = clip_to_coulomb(interaction.tangential, interaction.normal, overlap, touch * s)
         spring[pair] = s
         f_n, _ = normal_response(interaction.normal, overlap)
         f_t, _, _ = tangential_response(interaction.tangential, interaction.normal, overlap, s)
@@ -104,7 +111,7 @@ def pair_forces(
 
 @kernel
 def add_to_grains(pairs, begin, end, pair_force, fx, fy, torque):
-    """Add the pair forces of grains begin … end − 1 to both partners."""
+    """Add the forces of the pairs whose left grain is begin … end − 1 to both partners."""
     first, right = pairs.first, pairs.right
     base = first[begin]
     for i in range(begin, end):
@@ -133,14 +140,23 @@ def contact_pass(
 ):
     """Advance all springs and add all contact forces; forces must have been cleared."""
     n = grains.x.shape[0]
-    for begin in range(0, n, BLOCK):
-        end = min(begin + BLOCK, n)
+    for begin in range(0, n, GRAINS_PER_BLOCK):
+        end = min(begin + GRAINS_PER_BLOCK, n)
         low, high = pairs.first[begin], pairs.first[end]
-        room = scratch[:, : high - low]
+        block_force = scratch[:, : high - low]
         pair_forces(
-            grains, box_length, strain, time_step, pairs, low, interaction, damping, spring, room
+            grains,
+            box_length,
+            strain,
+            time_step,
+            pairs,
+            low,
+            interaction,
+            damping,
+            spring,
+            block_force,
         )
-        add_to_grains(pairs, begin, end, room, grains.fx, grains.fy, grains.torque)
+        add_to_grains(pairs, begin, end, block_force, grains.fx, grains.fy, grains.torque)
 
 
 @kernel
@@ -181,13 +197,13 @@ def second_kick(grains, half_step, damping):
 
 
 @kernel
-def unrest(grains):
+def residual_motion(grains):
     """max over grains of the force and velocity components, in k_N d^(3/2) and d/t_0.
 
-    Infinite where one of them is no number, which a maximum may pass over and a sum does not.
+    Infinite if one of them is NaN or infinite: a maximum may skip a NaN, a sum does not.
 
-    A's criterion, force with damping alone, is met by a slow overdamped creep too, in which the
-    contact forces still outweigh F_Th many times and only the dashpots hide it.
+    A judges the force with damping alone. A slow overdamped creep meets that too, while the contact
+    forces are still many times F_Th and only balanced by the dashpots.
     """
     force = max(np.abs(grains.fx).max(), np.abs(grains.fy).max())
     velocity = max(np.abs(grains.vx).max(), np.abs(grains.vy).max())
@@ -199,8 +215,8 @@ def unrest(grains):
 
 
 @kernel
-def carried(old, spring, new):
-    """The springs of the old pairs that are still on the list, in the order of the new one."""
+def transfer_springs(old, spring, new):
+    """The springs (P,) of a new list: those of its pairs in the old list, 0 for all others."""
     moved = np.zeros(new.left.shape[0])
     for i in range(new.first.shape[0] - 1):
         for pair in range(new.first[i], new.first[i + 1]):
@@ -214,30 +230,32 @@ def carried(old, spring, new):
 def integrate(
     grains, box_length, strain, pairs, spring, interaction, damping, time_step, skin, stop
 ):
-    """Integrate until the unrest is below stop.tolerance or infinite, or for stop.steps steps.
+    """Integrate until the residual motion is below stop.tolerance or infinite, or stop.steps steps.
 
-    Args: grains (changed in place); pairs, spring the Verlet list and its springs.
-    Returns: (pairs, spring, steps taken, unrest).
+    Args: grains (changed in place); pairs, the Verlet list; spring (P,), its springs.
+    Returns: (pairs, spring, steps taken, residual motion).
     """
-    units = 1.0 / (box_length * RESOLUTION)
+    units = 1.0 / (box_length * FRACTION_UNIT)
     half_step = 0.5 * time_step
-    reachable = np.int64(0.5 / math.sqrt(2.0) * skin * units / (1.0 + abs(strain)))
+    allowed_drift = np.int64(0.5 / math.sqrt(2.0) * skin * units / (1.0 + abs(strain)))
     scratch = pair_scratch(pairs, 3)
-    wandered, steps = np.int64(0), 0
+    drift, steps = np.int64(0), 0
     contact_pass(grains, box_length, strain, 0.0, pairs, interaction, damping, spring, scratch)
-    second_kick(grains, 0.0, damping)  # adds the drag alone: a run in pieces is the whole run
-    left = np.inf
-    while steps < stop.steps and (steps < LOOK or stop.tolerance <= left < np.inf):
+    second_kick(
+        grains, 0.0, damping
+    )  # adds only the drag, so that a run in pieces equals the whole run
+    motion = np.inf
+    while steps < stop.steps and (steps < CHECK_INTERVAL or stop.tolerance <= motion < np.inf):
         steps += 1
-        wandered += kick_and_drift(grains, half_step, time_step, units, strain)
-        if wandered > reachable:
+        drift += kick_and_drift(grains, half_step, time_step, units, strain)
+        if drift > allowed_drift:
             fresh = find_neighbours(grains.x, grains.y, grains.diameter, box_length, strain, skin)
-            spring = carried(pairs, spring, fresh)
-            pairs, scratch, wandered = fresh, pair_scratch(fresh, 3), np.int64(0)
+            spring = transfer_springs(pairs, spring, fresh)
+            pairs, scratch, drift = fresh, pair_scratch(fresh, 3), np.int64(0)
         contact_pass(
             grains, box_length, strain, time_step, pairs, interaction, damping, spring, scratch
         )
         second_kick(grains, half_step, damping)
-        if steps % LOOK == 0 or steps == stop.steps:
-            left = unrest(grains)
-    return pairs, spring, steps, left
+        if steps % CHECK_INTERVAL == 0 or steps == stop.steps:
+            motion = residual_motion(grains)
+    return pairs, spring, steps, motion

@@ -1,18 +1,19 @@
 """FIRE: the fast inertial relaxation engine of A, Appendix A, (i)–(iv).
 
     v → v + Δt F/2m,   r → r + Δt v,   v → v + Δt F̃/2m               (A5), (A6)
-    v → (1 − χ) v + χ |v| F̂                                          (A7), sign of F mended
+    v → (1 − χ) v + χ |v| F̂                                          (A7), sign of F corrected
     P = F·v > 0 for N_min steps:  Δt → min(1.1 Δt, Δt_max), χ → 0.99 χ  (A8), (A9)
     P ≤ 0:  v → 0, χ → 0.1, Δt → Δt/2                                (A10)–(A12)
 
-As printed, (A7) adds χ (v̂ − F)|v|, which steers away from the force; the rule above is that of the
-method A cites. The second half kick, the mixing (A7) and the next first half kick are one linear
-combination of v and F, so a step writes each grain once and reads every pair once.
+As printed, (A7) adds χ (v̂ − F)|v|, which steers away from the force; the formula above is that of
+the method that A cites. The second half kick, the mixing (A7) and the next first half kick are one
+linear combination of v and F, so a step writes each grain once and reads every pair once.
 
 | symbol       | name          |        | symbol | name     |
 | ------------ | ------------- | ------ | ------ | -------- |
 | Δt_F         | time_step     |        | χ      | mixing   |
 | Δt_F,max     | limit         |        | P      | power    |
+| N_min        | PATIENCE      |        |        |          |
 """
 
 from __future__ import annotations
@@ -23,14 +24,14 @@ from typing import NamedTuple
 import numpy as np
 
 from grainmodes.kernels.compiler import kernel
-from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours
-from grainmodes.kernels.repulsion import load, repulsion
+from grainmodes.kernels.neighbours import FRACTION_UNIT, find_neighbours
+from grainmodes.kernels.repulsion import mean_force_and_stiffness, repulsion
 
 INCREASE, DECREASE, MIXING, MIXING_DECAY, PATIENCE = 1.1, 0.5, 0.1, 0.99, 5
 """f_inc, f_dec, χ_start, f_χ and N_min of paper A."""
 
-REVIEW = 50
-"""Steps between two looks at the contact stiffness and the mean contact force."""
+REVIEW_INTERVAL = 50
+"""Steps between two updates of the targets: the force to reach and the largest time step."""
 
 
 class FireSettings(NamedTuple):
@@ -48,10 +49,10 @@ class FireSettings(NamedTuple):
     max_steps: int
 
 
-class Pace(NamedTuple):
-    """Time step and mixing; and what the next kick does, v → keep v + (steer + …) F.
+class FireState(NamedTuple):
+    """Time step, mixing, number of downhill steps, and the next kick, v → keep v + (steer + …) F.
 
-    `pending` is the half kick Δt/2 that the velocities have not been given yet.
+    `pending` is the half kick Δt/2 that has not been added to the velocities yet.
     """
 
     time_step: float
@@ -63,20 +64,22 @@ class Pace(NamedTuple):
 
 
 @kernel
-def capped(pace, limit):
-    """The pace with a time step of at most `limit`."""
-    time_step = min(pace.time_step, limit)
-    return Pace(time_step, pace.mixing, pace.downhill, pace.keep, pace.steer, pace.pending)
+def cap_time_step(state, limit):
+    """The state with its time step reduced to `limit` if it is larger."""
+    time_step = min(state.time_step, limit)
+    return FireState(
+        time_step, state.mixing, state.downhill, state.keep, state.steer, state.pending
+    )
 
 
 @kernel
-def advance(x, y, vx, vy, fx, fy, inverse_mass, pace, units, strain):
+def advance(x, y, vx, vy, fx, fy, inverse_mass, state, units, strain):
     """Pending half kick, mixing, next half kick, drift; clear F; return the longest drift.
 
-    Clearing the forces here, while they are in the cache, saves the next pass a trip to memory.
+    The forces are cleared here, while they are in the cache, which saves a pass through memory.
     """
-    keep, steer, kick = pace.keep, pace.steer, pace.time_step * units
-    half_kicks = keep * pace.pending + 0.5 * pace.time_step
+    keep, steer, kick = state.keep, state.steer, state.time_step * units
+    half_kicks = keep * state.pending + 0.5 * state.time_step
     longest = np.int64(0)
     for i in range(x.shape[0]):
         gain = steer + half_kicks * inverse_mass[i]
@@ -92,7 +95,7 @@ def advance(x, y, vx, vy, fx, fy, inverse_mass, pace, units, strain):
 
 
 @kernel
-def work(vx, vy, fx, fy, inverse_mass, half_step):
+def power_and_norms(vx, vy, fx, fy, inverse_mass, half_step):
     """F·v, v·v and F·F after the second half kick v + Δt F/2m, which is not yet stored."""
     power, speed2, force2 = 0.0, 0.0, 0.0
     for i in range(vx.shape[0]):
@@ -105,8 +108,8 @@ def work(vx, vy, fx, fy, inverse_mass, half_step):
 
 
 @kernel
-def farthest(x, y, origin_x, origin_y):
-    """Largest displacement component from the origin, in 2⁻⁶⁴ L."""
+def largest_drift(x, y, origin_x, origin_y):
+    """Largest displacement component since the last list, in 2⁻⁶⁴ L."""
     largest = np.int64(0)
     for i in range(x.shape[0]):
         largest = max(largest, max(abs(x[i] - origin_x[i]), abs(y[i] - origin_y[i])))
@@ -114,15 +117,15 @@ def farthest(x, y, origin_x, origin_y):
 
 
 @kernel
-def largest_component(fx, fy):
+def max_component(fx, fy):
     """max over grains and axes of |F|."""
     return max(np.abs(fx).max(), np.abs(fy).max())
 
 
 @kernel
-def aims(x, y, box_length, strain, neighbours, normal, inverse_mass, settings):
-    """(force to reach, largest time step) at the present load of the contacts."""
-    mean_force, stiffness = load(x, y, box_length, strain, neighbours, normal)
+def targets(x, y, box_length, strain, neighbours, normal, inverse_mass, settings):
+    """(max|F| at which to stop, largest time step) for the present load of the contacts."""
+    mean_force, stiffness = mean_force_and_stiffness(x, y, box_length, strain, neighbours, normal)
     goal = max(settings.force_tolerance, settings.balance * mean_force)
     frequency = math.sqrt(stiffness * inverse_mass.max())
     if frequency == 0.0:
@@ -131,16 +134,16 @@ def aims(x, y, box_length, strain, neighbours, normal, inverse_mass, settings):
 
 
 @kernel
-def next_pace(pace, power, speed2, force2, limit):
-    """(A8)–(A12): faster while the motion goes downhill, stop where it does not."""
+def next_state(state, power, speed2, force2, limit):
+    """The state after (A8)–(A12): a longer step downhill, a stop and a shorter one otherwise."""
     if not power > 0.0:
-        return Pace(DECREASE * pace.time_step, MIXING, 0, 0.0, 0.0, 0.0)
-    time_step, mixing = pace.time_step, pace.mixing
-    if pace.downhill >= PATIENCE:
+        return FireState(DECREASE * state.time_step, MIXING, 0, 0.0, 0.0, 0.0)
+    time_step, mixing = state.time_step, state.mixing
+    if state.downhill >= PATIENCE:
         time_step, mixing = min(INCREASE * time_step, limit), MIXING_DECAY * mixing
-    steer = pace.mixing * math.sqrt(speed2 / force2)
-    return Pace(
-        time_step, mixing, pace.downhill + 1, 1.0 - pace.mixing, steer, 0.5 * pace.time_step
+    steer = state.mixing * math.sqrt(speed2 / force2)
+    return FireState(
+        time_step, mixing, state.downhill + 1, 1.0 - state.mixing, steer, 0.5 * state.time_step
     )
 
 
@@ -152,29 +155,31 @@ def fire(x, y, diameter, inverse_mass, box_length, strain, normal, settings):
     Returns: (largest force component, steps taken); the caller judges convergence.
     """
     n, skin = x.shape[0], settings.skin
-    units = 1.0 / (box_length * RESOLUTION)
-    free_path = np.int64(min(0.5 / math.sqrt(2.0) * skin * units / (1.0 + abs(strain)), 2e18))
+    units = 1.0 / (box_length * FRACTION_UNIT)
+    allowed_drift = np.int64(min(0.5 / math.sqrt(2.0) * skin * units / (1.0 + abs(strain)), 2e18))
     neighbours = find_neighbours(x, y, diameter, box_length, strain, skin)
-    origin_x, origin_y, wandered = x.copy(), y.copy(), np.int64(0)
+    origin_x, origin_y, drift = x.copy(), y.copy(), np.int64(0)
     vx, vy, fx, fy = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
     repulsion(x, y, box_length, strain, neighbours, normal, fx, fy)
-    goal, limit = aims(x, y, box_length, strain, neighbours, normal, inverse_mass, settings)
-    pace = Pace(0.1 * limit, MIXING, 0, 1.0, 0.0, 0.0)
-    largest, steps = largest_component(fx, fy), 0
+    goal, limit = targets(x, y, box_length, strain, neighbours, normal, inverse_mass, settings)
+    state = FireState(0.1 * limit, MIXING, 0, 1.0, 0.0, 0.0)
+    largest, steps = max_component(fx, fy), 0
     while largest >= goal and steps < settings.max_steps:
         steps += 1
-        if steps % REVIEW == 0:
-            goal, limit = aims(x, y, box_length, strain, neighbours, normal, inverse_mass, settings)
-            pace = capped(pace, limit)
-        wandered += advance(x, y, vx, vy, fx, fy, inverse_mass, pace, units, strain)
-        if wandered > free_path:
-            wandered = farthest(x, y, origin_x, origin_y)
-        if wandered > free_path:
+        if steps % REVIEW_INTERVAL == 0:
+            goal, limit = targets(
+                x, y, box_length, strain, neighbours, normal, inverse_mass, settings
+            )
+            state = cap_time_step(state, limit)
+        drift += advance(x, y, vx, vy, fx, fy, inverse_mass, state, units, strain)
+        if drift > allowed_drift:
+            drift = largest_drift(x, y, origin_x, origin_y)
+        if drift > allowed_drift:
             neighbours = find_neighbours(x, y, diameter, box_length, strain, skin)
-            origin_x[:], origin_y[:], wandered = x, y, np.int64(0)
+            origin_x[:], origin_y[:], drift = x, y, np.int64(0)
         repulsion(x, y, box_length, strain, neighbours, normal, fx, fy)
-        power, speed2, force2 = work(vx, vy, fx, fy, inverse_mass, 0.5 * pace.time_step)
-        if not force2 > 2.0 * n * goal * goal:  # also where it is no number
-            largest = largest_component(fx, fy)
-        pace = next_pace(pace, power, speed2, force2, limit)
-    return largest_component(fx, fy), steps
+        power, speed2, force2 = power_and_norms(vx, vy, fx, fy, inverse_mass, 0.5 * state.time_step)
+        if not force2 > 2.0 * n * goal * goal:  # true for NaN too
+            largest = max_component(fx, fy)
+        state = next_state(state, power, speed2, force2, limit)
+    return max_component(fx, fy), steps

@@ -1,4 +1,4 @@
-"""Signs of permutations, for those of determinants."""
+"""Parity of permutations, which gives the sign of a determinant."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from grainmodes.kernels.compiler import kernel
 
 
 @kernel
-def odd(permutation):
-    """1 if a permutation (M,) int is odd, else 0: M minus its number of cycles, modulo 2."""
+def is_odd(permutation):
+    """1 if a permutation (M,) int is is_odd, else 0: M minus its number of cycles, modulo 2."""
     size = permutation.shape[0]
     seen = np.zeros(size, np.bool_)
     cycles = 0

@@ -1,13 +1,15 @@
-"""What tangential springs remember: how it advances with ds, and how much the law lets it keep.
+"""The states of tangential springs: how they advance with a slide, and where the law clips them.
 
-| remembered           | advances by                                | keeps                        |
-| -------------------- | ------------------------------------------ | ---------------------------- |
-| s  displacement      | ds                                         | all; sharp Coulomb: |s| ≤ s* |
-| h  force             | k_T w(ξ) ds, ξ at the middle of the step   | all; sharp Coulomb: μ f_N    |
+| spring state          | advances by                              | clipped by sharp Coulomb to |
+| --------------------- | ---------------------------------------- | --------------------------- |
+| s  displacement, d    | ds                                       | |s| ≤ s*                    |
+| h  force, k_N d^(3/2) | k_T w(ξ) ds, ξ at the middle of the step | |h| ≤ μ f_N                 |
 
-A displacement feels every later change of the overlap, f_T = −k_T w(ξ) s; a force does not, and so
-∂f_T/∂ξ = 0. LAMMPS calls the two `mindlin` and `mindlin/force`. Which is which, each law says
-(`laws`).
+The force of a spring that remembers a displacement changes with the overlap, f_T = −k_T w(ξ) s. A
+remembered force does not, and so ∂f_T/∂ξ = 0. LAMMPS calls the two `mindlin` and `mindlin/force`.
+Each law (`laws`) states which of them it uses.
+
+C contacts between grains i, j (C,) int32; overlap, distance and spring_state are (C,) float64.
 """
 
 from __future__ import annotations
@@ -17,36 +19,36 @@ import math
 import numpy as np
 
 from grainmodes.kernels.compiler import kernel
-from grainmodes.kernels.laws import admissible, advanced, threshold
+from grainmodes.kernels.laws import advance_spring, clip_to_coulomb, slip_threshold
 
 
 @kernel
-def thresholds(interaction, overlap):
-    """What every spring remembers where its contact begins to slide, (C,); ∞ if it never does."""
-    found = np.empty(overlap.shape[0])
+def slip_thresholds(interaction, overlap):
+    """Size of the spring state from which every contact slides, (C,); ∞ if it never does."""
+    at_slip = np.empty(overlap.shape[0])
     for c in range(overlap.shape[0]):
-        found[c] = threshold(interaction.tangential, interaction.normal, overlap[c])
-    return found
+        at_slip[c] = slip_threshold(interaction.tangential, interaction.normal, overlap[c])
+    return at_slip
 
 
 @kernel
-def advanced_displacement(interaction, overlap, displacement, slide):
-    """What every spring remembers after it has slid by `slide`, (C,); `overlap` at the middle."""
+def advance_by_slide(interaction, overlap, spring_state, slide):
+    """Spring states after slides ds (C,) in d, with `overlap` at the middle of the step; (C,)."""
     after = np.empty(overlap.shape[0])
     for c in range(overlap.shape[0]):
-        after[c] = advanced(
+        after[c] = advance_spring(
             interaction.tangential,
             interaction.normal,
             max(overlap[c], 0.0),
-            displacement[c],
+            spring_state[c],
             slide[c],
         )
     return after
 
 
 @kernel
-def stretched(interaction, normal, distance, overlap, displacement, i, j, u):
-    """What every spring remembers after a motion u (N, 3) of the grains; (C,).
+def advance_springs(interaction, normal, distance, overlap, spring_state, i, j, u):
+    """Spring states after a motion u (N, 3) of the grains, (x, y, ℓ) in d; (C,).
 
     ds = t·δr + δℓ, with t and ξ at the middle of the motion.
     """
@@ -57,22 +59,22 @@ def stretched(interaction, normal, distance, overlap, displacement, i, j, u):
         mx = normal[c, 0] * distance[c] + 0.5 * x
         my = normal[c, 1] * distance[c] + 0.5 * y
         length = math.hypot(mx, my)
-        after[c] = advanced(
+        after[c] = advance_spring(
             interaction.tangential,
             interaction.normal,
             max(overlap[c] + distance[c] - length, 0.0),
-            displacement[c],
+            spring_state[c],
             (my * x - mx * y) / length + on_i[2] + on_j[2],
         )
     return after
 
 
 @kernel
-def kept_displacement(interaction, overlap, displacement):
-    """What every spring remembers after the law has let it slip; (C,)."""
-    kept = np.empty(overlap.shape[0])
+def clip_springs(interaction, overlap, spring_state):
+    """Spring states after slip, (C,)."""
+    clipped = np.empty(overlap.shape[0])
     for c in range(overlap.shape[0]):
-        kept[c] = admissible(
-            interaction.tangential, interaction.normal, overlap[c], displacement[c]
+        clipped[c] = clip_to_coulomb(
+            interaction.tangential, interaction.normal, overlap[c], spring_state[c]
         )
-    return kept
+    return clipped

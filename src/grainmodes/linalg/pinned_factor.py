@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from scipy.sparse.linalg import LinearOperator, eigs, splu
 from scipy.sparse.linalg import SuperLU as PivotedFactors
 
-from grainmodes.kernels.permutations import odd
+from grainmodes.kernels.permutations import is_odd
 from grainmodes.linalg.factorisation import ZeroPivotError
 from grainmodes.linalg.superlu import SuperLU
 from grainmodes.linalg.symmetric_shift import SymmetricShift
@@ -164,7 +164,7 @@ class _GeneralFactor:
             entries = (scaled, matrix.indices, matrix.indptr)
             pivoted = splu(sparse.csc_array(entries, shape=matrix.shape))
             signs = np.count_nonzero(pivoted.U.diagonal() < 0.0)
-            self.n_below = int(signs + odd(pivoted.perm_r) + odd(pivoted.perm_c)) % 2
+            self.n_below = int(signs + is_odd(pivoted.perm_r) + is_odd(pivoted.perm_c)) % 2
             self._factors = pivoted
 
     def _ordered(self, pattern: tuple[NDArray[np.integer], ...]) -> SuperLU | None:

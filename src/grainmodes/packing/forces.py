@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.kernels.assembly import on_grains
+from grainmodes.kernels.assembly import sum_on_grains
 from grainmodes.kernels.contacts import contact_forces, normal_forces
 from grainmodes.kernels.energies import contact_energies
-from grainmodes.kernels.laws import AT_THRESHOLD, Frictionless, Interaction
-from grainmodes.kernels.springs import thresholds
+from grainmodes.kernels.laws import SLIDING_FRACTION, Frictionless, Interaction
+from grainmodes.kernels.springs import slip_thresholds
 from grainmodes.packing.contacts import Contacts
 from grainmodes.packing.state import Packing
 
@@ -46,8 +46,8 @@ def sliding(contacts: Contacts, interaction: Interaction) -> np.ndarray:
 
     None without friction, or with springs that never slip.
     """
-    slides_at = thresholds(interaction, contacts.overlap)
-    return np.abs(contacts.displacement) >= AT_THRESHOLD * slides_at
+    slides_at = slip_thresholds(interaction, contacts.overlap)
+    return np.abs(contacts.displacement) >= SLIDING_FRACTION * slides_at
 
 
 def net_force(packing: Packing, contacts: Contacts, interaction: Interaction) -> np.ndarray:
@@ -57,7 +57,7 @@ def net_force(packing: Packing, contacts: Contacts, interaction: Interaction) ->
 
 def net(contacts: Contacts, forces: np.ndarray, n: int) -> np.ndarray:
     """What forces (C, k) on the grains i of all contacts do to every grain, (N, k)."""
-    return on_grains(forces, SIGNS[: forces.shape[1]], contacts.i, contacts.j, n)
+    return sum_on_grains(forces, SIGNS[: forces.shape[1]], contacts.i, contacts.j, n)
 
 
 def largest(force: np.ndarray) -> tuple[float, float]:

@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sparse
 
-from grainmodes.kernels.assembly import columns_of
+from grainmodes.kernels.assembly import jacobian_columns
 from grainmodes.kernels.contacts import contact_stiffness, normal_stiffness
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.contacts import Contacts
@@ -44,5 +44,5 @@ def jacobian(packing: Packing, contacts: Contacts, interaction: Interaction) -> 
 def assemble(stiffness: np.ndarray, i: np.ndarray, j: np.ndarray, n: int) -> sparse.csc_array:
     """The sparse matrix of contact stiffnesses (C, k, k) between grains i > j sorted by (i, j)."""
     k = stiffness.shape[1]
-    entries = columns_of(stiffness, SIGNS[:k], i, j, n)
+    entries = jacobian_columns(stiffness, SIGNS[:k], i, j, n)
     return sparse.csc_array(entries, shape=(k * n, k * n))

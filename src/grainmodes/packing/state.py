@@ -18,7 +18,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from grainmodes.kernels.neighbours import RESOLUTION, find_neighbours, matched, touching
+from grainmodes.kernels.neighbours import (
+    FRACTION_UNIT,
+    find_neighbours,
+    touching_pairs,
+    values_of_pairs,
+)
 from grainmodes.packing.box import (
     PackingError,
     check_box,
@@ -93,7 +98,7 @@ class Packing:
     @property
     def position(self) -> np.ndarray:
         """Positions (N, 2) in [0, L) of the sheared frame, in d (rounded: `fraction` is exact)."""
-        x, y = self.fraction * RESOLUTION + 0.5
+        x, y = self.fraction * FRACTION_UNIT + 0.5
         sheared = (x + self.strain * y) % 1.0
         return np.stack([sheared, y], axis=1) * self.box_length
 
@@ -148,7 +153,7 @@ def nonaffine_motion(before: Packing, after: Packing) -> np.ndarray:
     r = L (s_x + γ s_y, s_y), of which the change of γ alone is the affine part. Without rotation
     k is 2.
     """
-    x, y = (after.fraction - before.fraction) * (RESOLUTION * before.box_length)
+    x, y = (after.fraction - before.fraction) * (FRACTION_UNIT * before.box_length)
     moved = [x + after.strain * y, y]
     if after.rotation is not None:
         at_first = 0.0 if before.rotation is None else before.rotation
@@ -167,13 +172,13 @@ def find_contacts(packing: Packing) -> Contacts:
         return Contacts(nothing, nothing, np.zeros((0, 2)), np.zeros(0), np.zeros(0))
     x, y = packing.fraction
     pairs = find_neighbours(x, y, packing.diameter, packing.box_length, packing.strain, 0.0)
-    scale = packing.box_length * RESOLUTION
-    i, j, normal, distance, overlap = touching(x, y, pairs, scale, packing.strain)
+    scale = packing.box_length * FRACTION_UNIT
+    i, j, normal, distance, overlap = touching_pairs(x, y, pairs, scale, packing.strain)
     if len(i) and distance.min() == 0.0:
         k = int(np.argmin(distance))
         raise PackingError(f"grains {i[k]} and {j[k]} lie at the same place: no normal is defined")
     known = packing.history
-    s = known and matched(known.i, known.j, known.spring_state, i, j)
+    s = known and values_of_pairs(known.i, known.j, known.spring_state, i, j)
     return Contacts(i, j, normal, distance, overlap, s)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Interaction
-from grainmodes.kernels.neighbours import RESOLUTION
+from grainmodes.kernels.neighbours import FRACTION_UNIT
 from grainmodes.packing.state import Packing
 from grainmodes.relaxation.dynamics import Motion, move
 
@@ -57,6 +57,6 @@ def _errors(start: Packing, velocity: np.ndarray, interaction, damping, time_ste
 
 def _distance(one: Motion, other: Motion) -> float:
     """|q − q'| of two motions of a packing in a box that is not sheared."""
-    step = (one.packing.fraction - other.packing.fraction) * RESOLUTION * one.packing.box_length
+    step = (one.packing.fraction - other.packing.fraction) * FRACTION_UNIT * one.packing.box_length
     turn = one.packing.rotation - other.packing.rotation
     return float(np.sqrt(np.sum(step**2) + np.sum(turn**2)))

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from grainmodes.kernels.dynamics import Grains, Stop, carried, integrate
+from grainmodes.kernels.dynamics import Grains, Stop, integrate, transfer_springs
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.neighbours import Neighbours, find_neighbours
 from grainmodes.packing.contacts import History
@@ -30,7 +30,7 @@ class Motion:
     packing: Packing
     velocity: np.ndarray
     steps: int
-    unrest: float
+    residual_motion: float
 
 
 def move(
@@ -50,7 +50,7 @@ def move(
     pairs = find_neighbours(
         grains.x, grains.y, packing.diameter, packing.box_length, packing.strain, SKIN
     )
-    pairs, spring, steps, unrest = integrate(
+    pairs, spring, steps, residual_motion = integrate(
         grains,
         packing.box_length,
         packing.strain,
@@ -62,7 +62,7 @@ def move(
         SKIN,
         stop,
     )
-    if steps and not unrest < np.inf:
+    if steps and not residual_motion < np.inf:
         raise ArithmeticError(
             f"the motion grew beyond all bounds within {steps} steps of time_step = {time_step}: "
             "take a shorter one"
@@ -73,7 +73,7 @@ def move(
         rotation=grains.rotation,
         history=_history(pairs, spring),
     )
-    return Motion(moved, np.stack([grains.vx, grains.vy, grains.w], axis=1), steps, unrest)
+    return Motion(moved, np.stack([grains.vx, grains.vy, grains.w], axis=1), steps, residual_motion)
 
 
 def relax_damped(
@@ -86,7 +86,7 @@ def relax_damped(
 ) -> Relaxed:
     """From rest until max|F̃| < `tolerance`, judged on the forces without damping.
 
-    The unrest allowed is lowered until the contact forces themselves are below the tolerance.
+    The allowed residual motion is lowered until the contact forces are below the tolerance.
 
     Raises:
         ArithmeticError: as `move`.
@@ -123,7 +123,7 @@ def _springs(packing: Packing, pairs: Neighbours) -> np.ndarray:
     left, right = history.j[order], history.i[order].astype(np.uint32)
     first = np.searchsorted(left, np.arange(packing.n + 1))
     known = Neighbours(first, left.astype(np.uint32), right, np.zeros(len(left)))
-    return carried(known, history.spring_state[order], pairs)
+    return transfer_springs(known, history.spring_state[order], pairs)
 
 
 def _history(pairs: Neighbours, spring: np.ndarray) -> History:

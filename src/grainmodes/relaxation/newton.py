@@ -19,7 +19,7 @@ from dataclasses import replace
 import numpy as np
 
 from grainmodes.kernels.laws import Interaction
-from grainmodes.kernels.springs import kept_displacement, stretched
+from grainmodes.kernels.springs import advance_springs, clip_springs
 from grainmodes.linalg.pinned_factor import FloppyError, PinnedFactor
 from grainmodes.packing.contacts import Contacts, History
 from grainmodes.packing.forces import is_frictionless, largest, net_force
@@ -81,7 +81,7 @@ def moved_by(
         return moved
     rotation = np.zeros(packing.n) if packing.rotation is None else packing.rotation
     c = contacts
-    s = stretched(interaction, c.normal, c.distance, c.overlap, c.displacement, c.i, c.j, u)
+    s = advance_springs(interaction, c.normal, c.distance, c.overlap, c.displacement, c.i, c.j, u)
     return replace(moved, rotation=rotation + u[:, 2], history=History(contacts.i, contacts.j, s))
 
 
@@ -90,6 +90,6 @@ def slipped(packing: Packing, interaction: Interaction) -> tuple[Packing, Contac
     contacts = find_contacts(packing)
     if packing.history is None:
         return packing, contacts
-    s = kept_displacement(interaction, contacts.overlap, contacts.displacement)
+    s = clip_springs(interaction, contacts.overlap, contacts.displacement)
     history = History(contacts.i, contacts.j, s)
     return replace(packing, history=history), replace(contacts, spring_state=s)

@@ -23,7 +23,7 @@ import numpy as np
 
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.damping import Dashpot
-from grainmodes.kernels.laws import Interaction, interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.hessian import effective_hessian
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing, find_contacts
@@ -69,7 +69,7 @@ def claim_diagnostics_block(packings: Block, law: ContactLaw, protocol: Protocol
     sentences: dict[str, str] = {}
 
     def sample(number: int) -> dict[str, object]:
-        packing, jammed = jammed_packing(packings, number, interaction(law))
+        packing, jammed = jammed_packing(packings, number, Interaction.from_law(law))
         attempt = Attempts()
         probed = probes(packing, law, protocol, attempt) if jammed else unjammed(packing, law)
         if attempt.sentences:
@@ -97,17 +97,21 @@ def probes(
     packing: Packing, law: ContactLaw, protocol: Protocol, attempt: Attempts
 ) -> dict[str, object]:
     """The row of a jammed packing; what failed is NaN and stands in `attempt.sentences`."""
-    rule, threshold = interaction(law), protocol.rattlers.largest(law)
+    interaction, threshold = Interaction.from_law(law), protocol.rattlers.largest(law)
     row = {
         "g_forward_by_strain": [
-            attempt(np.nan, forward_rigidity, packing, rule, step, threshold)
+            attempt(np.nan, forward_rigidity, packing, interaction, step, threshold)
             for step in _steps(protocol.step_strain)
         ],
-        "hessian_difference": attempt(np.nan, hessian_difference, packing, rule, "tangent"),
-        "hessian_printed_difference": attempt(np.nan, hessian_difference, packing, rule, "printed"),
+        "hessian_difference": attempt(np.nan, hessian_difference, packing, interaction, "tangent"),
+        "hessian_printed_difference": attempt(
+            np.nan, hessian_difference, packing, interaction, "printed"
+        ),
     }
     if packing.n <= DENSE:
-        row["g_translational"] = attempt(np.nan, translational_rigidity, packing, rule, threshold)
+        row["g_translational"] = attempt(
+            np.nan, translational_rigidity, packing, interaction, threshold
+        )
     return row | _frictional(packing, law, protocol.step_strain, attempt)
 
 
@@ -121,33 +125,35 @@ def _frictional(
     """The probes of a packing whose grains have velocities and springs."""
     if not law.frictional:
         return {}
-    rule = interaction(law)
-    orders = attempt((np.nan, np.nan), step_orders, packing, rule, Dashpot(step.damping))
+    interaction = Interaction.from_law(law)
+    orders = attempt((np.nan, np.nan), step_orders, packing, interaction, Dashpot(step.damping))
     row = dict(zip(("verlet_order_position", "verlet_order_velocity"), orders, strict=True))
     if packing.n > COMPRESSED:
         return row
     names = ("complex_pairs_frictional", "jammed_frictional")
-    found = attempt((np.nan, np.nan), compressed_pairs, packing, rule, step.force_tolerance)
+    found = attempt((np.nan, np.nan), compressed_pairs, packing, interaction, step.force_tolerance)
     return row | dict(zip(names, found, strict=True))
 
 
-def translational_rigidity(packing: Packing, rule: Interaction, threshold: int) -> float:
+def translational_rigidity(packing: Packing, interaction: Interaction, threshold: int) -> float:
     """g where the modes with ψ^T > 1/2 alone respond."""
-    by_mode = ModeRigidity(packing, rule, threshold)
-    found = spectrum(packing, rule, threshold, forces=by_mode.forces)
+    by_mode = ModeRigidity(packing, interaction, threshold)
+    found = spectrum(packing, interaction, threshold, forces=by_mode.forces)
     translational = found.psi_rotational < 0.5
     return by_mode.g_affine + float(by_mode.contributions(found)[translational].sum())
 
 
-def hessian_difference(packing: Packing, rule: Interaction, stiffness: str) -> float:
+def hessian_difference(packing: Packing, interaction: Interaction, stiffness: str) -> float:
     """max|H − J| / max|J| over the entries."""
     contacts = find_contacts(packing)
-    matrix = jacobian(packing, contacts, rule)
-    difference = effective_hessian(packing, contacts, rule, stiffness) - matrix
+    matrix = jacobian(packing, contacts, interaction)
+    difference = effective_hessian(packing, contacts, interaction, stiffness) - matrix
     return float(abs(difference).max() / abs(matrix).max())
 
 
-def compressed_pairs(packing: Packing, rule: Interaction, tolerance: float) -> tuple[int, bool]:
+def compressed_pairs(
+    packing: Packing, interaction: Interaction, tolerance: float
+) -> tuple[int, bool]:
     """Complex pairs of the packing compressed anew with friction, and whether it is jammed."""
-    found = frictional_compression(packing, rule, tolerance)
-    return (complex_pairs(found.packing, rule) if found.jammed else 0), found.jammed
+    found = frictional_compression(packing, interaction, tolerance)
+    return (complex_pairs(found.packing, interaction) if found.jammed else 0), found.jammed

@@ -15,7 +15,7 @@ import numpy as np
 from grainmodes.complex_pairs.definition import on_all_grains
 from grainmodes.complex_pairs.plane import plane_near
 from grainmodes.dataset.files import Block
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
 from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.law import ContactLaw
@@ -32,13 +32,13 @@ def complex_pairs_block(
     packings: Block, law: ContactLaw, shear: Shear, asked: PairChoices
 ) -> Block:
     """The complex pairs of every packing up to the last strain of `shear`."""
-    rule = interaction(law)
+    interaction = Interaction.from_law(law)
 
     def sample(number: int) -> dict[str, object]:
-        packing, jammed = jammed_packing(packings, number, rule)
+        packing, jammed = jammed_packing(packings, number, interaction)
         if not jammed:
             return {"pair_state_count": 0, "jammed": False, "converged": True}
-        walk = PairWalk.start(packing, rule, shear, asked)
+        walk = PairWalk.start(packing, interaction, shear, asked)
         ending = _walked(walk)
         return row_of(walk) | ({} if walk.done else {"failure": ending})
 

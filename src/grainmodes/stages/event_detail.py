@@ -11,7 +11,7 @@ from dataclasses import asdict
 import numpy as np
 
 from grainmodes.dataset.files import Block
-from grainmodes.kernels.laws import Interaction, interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import is_frictionless
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
@@ -36,15 +36,15 @@ SIDES = ("before", "after")
 
 def event_detail_block(packings: Block, law: ContactLaw, choices: Shear) -> Block:
     """The first event of the first sample of a block; `choices.min_step` is not used."""
-    rule = interaction(law)
+    interaction = Interaction.from_law(law)
 
     def sample(number: int) -> dict[str, object]:
-        packing, jammed = jammed_packing(packings, number, rule)
+        packing, jammed = jammed_packing(packings, number, interaction)
         row = {"event_count": 0, "path_count": 0, "jammed": jammed, "converged": True}
         if not jammed:
             return row | _grains(packing)
-        *_, closest = found = brackets(packing, rule, choices)
-        row |= _brackets(found) | _paths(packing, rule, closer(choices)[0])
+        *_, closest = found = brackets(packing, interaction, choices)
+        row |= _brackets(found) | _paths(packing, interaction, closer(choices)[0])
         if closest.event is None:
             return row | _grains(packing)
         return row | _event(closest, closer(choices)[-1])
@@ -119,11 +119,11 @@ def _near(bracket: Bracket, choices: Shear) -> dict[str, object]:
     }
 
 
-def _paths(packing: Packing, rule: Interaction, choices: Shear) -> dict[str, object]:
+def _paths(packing: Packing, interaction: Interaction, choices: Shear) -> dict[str, object]:
     """B's Err along the walk in whole steps, up to its first event."""
-    if is_frictionless(rule):
+    if is_frictionless(interaction):
         return {}
-    walk = Walk.start(packing, rule, choices)
+    walk = Walk.start(packing, interaction, choices)
     path, errors = TangentialPath(walk.now.balance), []
     for _, now in steps(walk):
         if walk.events:

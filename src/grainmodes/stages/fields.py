@@ -11,7 +11,7 @@ from dataclasses import asdict
 import numpy as np
 
 from grainmodes.dataset.files import Block
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.fields import MOST_FOR_ALL_MODES
 from grainmodes.parameters.law import ContactLaw, Rattlers
@@ -30,18 +30,18 @@ def fields_block(
     frequencies: tuple[float, ...],
 ) -> Block:
     """The fields of the first sample of a block, and its modes nearest to `frequencies` (1/t_0)."""
-    rule, threshold = interaction(law), rattlers.largest(law)
+    interaction, threshold = Interaction.from_law(law), rattlers.largest(law)
 
     def sample(number: int) -> dict[str, object]:
-        packing, jammed = jammed_packing(packings, number, rule)
+        packing, jammed = jammed_packing(packings, number, interaction)
         row = _grains(packing) | {"jammed": jammed, "converged": True}
         if not jammed:
             return row
-        row["nonaffine_field"] = nonaffine_field(packing, rule, threshold)
-        row["nonaffine_field_simulated"] = simulated_field(packing, rule, step, threshold)
+        row["nonaffine_field"] = nonaffine_field(packing, interaction, threshold)
+        row["nonaffine_field_simulated"] = simulated_field(packing, interaction, step, threshold)
         if packing.n <= MOST_FOR_ALL_MODES:
-            row["nonaffine_field_mode_sum"] = mode_sum_field(packing, rule, threshold)
-        return row | _modes(packing, rule, frequencies, threshold)
+            row["nonaffine_field_mode_sum"] = mode_sum_field(packing, interaction, threshold)
+        return row | _modes(packing, interaction, frequencies, threshold)
 
     config = {"law": asdict(law), "rattlers": asdict(rattlers), "step_strain": asdict(step)}
     return response_block(first_sample(packings), "fields", config, law, sample)
@@ -57,8 +57,8 @@ def _grains(packing: Packing) -> dict[str, object]:
     }
 
 
-def _modes(packing: Packing, rule, frequencies: tuple[float, ...], threshold: int) -> dict:
-    found = nearest_modes(packing, rule, frequencies, threshold)
+def _modes(packing: Packing, interaction, frequencies: tuple[float, ...], threshold: int) -> dict:
+    found = nearest_modes(packing, interaction, frequencies, threshold)
     return {
         "frequency_asked": np.array(frequencies),
         "frequency_found": found.frequency,

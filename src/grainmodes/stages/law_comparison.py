@@ -11,7 +11,7 @@ from dataclasses import asdict, replace
 import numpy as np
 
 from grainmodes.dataset.files import Block
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ELASTIC_LAWS, TANGENTIAL_LAWS, ContactLaw
 from grainmodes.parameters.law_comparison import MAX_GRAINS
@@ -25,7 +25,7 @@ def law_comparison_block(packings: Block, law: ContactLaw, choices: Shear) -> Bl
     """Pairs, rates and growth of every packing under every law."""
 
     def sample(number: int) -> dict[str, object]:
-        packing, jammed = jammed_packing(packings, number, interaction(law))
+        packing, jammed = jammed_packing(packings, number, Interaction.from_law(law))
         if not jammed:
             return {"comparison_count": 0, "jammed": False, "converged": True}
         if packing.n > MAX_GRAINS:
@@ -39,7 +39,8 @@ def law_comparison_block(packings: Block, law: ContactLaw, choices: Shear) -> Bl
 def variants(packing: Packing, law: ContactLaw, choices: Shear) -> dict[str, Variant]:
     """The packing under every law, by the name of its tangential part."""
     return {
-        name: variant(packing, interaction(_with(law, name)), choices) for name in TANGENTIAL_LAWS
+        name: variant(packing, Interaction.from_law(_with(law, name)), choices)
+        for name in TANGENTIAL_LAWS
     }
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import asdict
 
 from grainmodes.dataset.files import Block
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.compression import Compression
@@ -89,15 +89,15 @@ def packing_block(start: Block, phi: float, compression: Compression, normal: st
 
 def rigidity_block(packings: Block, law: ContactLaw, rattler: Rattlers) -> Block:
     """g, g_A, g_NA of every packing, unloaded and loaded, from one sparse solve each."""
-    rule = interaction(law)
+    interaction = Interaction.from_law(law)
 
     def sample(number: int) -> dict[str, object]:
-        packing, jammed = jammed_packing(packings, number, rule)
-        force = largest(net_force(packing, find_contacts(packing), rule))
+        packing, jammed = jammed_packing(packings, number, interaction)
+        force = largest(net_force(packing, find_contacts(packing), interaction))
         row = {"jammed": jammed, "converged": True, "max_force": force[0], "max_torque": force[1]}
         if not jammed:
             return row | dict.fromkeys([*_moduli_names(""), *_moduli_names("_loaded")], 0.0)
-        moduli = rigidity(packing, rule, rattler.largest(law))
+        moduli = rigidity(packing, interaction, rattler.largest(law))
         return row | _moduli("", moduli.unloaded) | _moduli("_loaded", moduli.loaded)
 
     config = {"law": asdict(law), "rattlers": asdict(rattler)}
@@ -106,13 +106,13 @@ def rigidity_block(packings: Block, law: ContactLaw, rattler: Rattlers) -> Block
 
 def step_strain_block(packings: Block, law: ContactLaw, step: StepStrain) -> Block:
     """g of every packing from step strains, relaxed by the full non-linear forces."""
-    rule = interaction(law)
+    interaction = Interaction.from_law(law)
 
     def sample(number: int) -> dict[str, object]:
-        packing, jammed = jammed_packing(packings, number, rule)
+        packing, jammed = jammed_packing(packings, number, interaction)
         if not jammed:
             return {"g_simulated": 0.0, "g_simulated_forward": 0.0, "converged": True}
-        result = step_strain(packing, rule, step)
+        result = step_strain(packing, interaction, step)
         if not result.converged:
             raise ArithmeticError(
                 f"step strain {result.strain}: max|F| = {result.max_force:.1e}, max|2T/d| = "
@@ -135,7 +135,7 @@ def step_strain_block(packings: Block, law: ContactLaw, step: StepStrain) -> Blo
 
 
 def _normal(name: str):
-    return interaction(ContactLaw(normal=name)).normal
+    return Interaction.from_law(ContactLaw(normal=name)).normal
 
 
 def _moduli_names(suffix: str) -> tuple[str, str, str]:

@@ -13,7 +13,7 @@ from typing import Protocol
 import numpy as np
 
 from grainmodes.dataset.files import Block
-from grainmodes.kernels.laws import Interaction, interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.contacts import History
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
@@ -48,15 +48,17 @@ def release_block(
     pairs: Block, law: ContactLaw, choices: Release, keeper: Keeper | None = None
 ) -> Block:
     """Every sample of a block of the stage `pairs` released from its unstable state."""
-    rule = interaction(law)
+    interaction = Interaction.from_law(law)
 
     def sample(number: int) -> dict[str, object]:
         if not pairs.variables["unstable_found"][number]:
             return {"release_found": 0, "converged": True}
         start, seed = unstable_of(pairs, number), seed_of(pairs, number)
-        check(start, rule)
+        check(start, interaction)
         runs = [
-            followed(Run.begin(start, rule, choices, eta * start.rate), keeper, f"seed-{seed}-{k}")
+            followed(
+                Run.begin(start, interaction, choices, eta * start.rate), keeper, f"seed-{seed}-{k}"
+            )
             for k, eta in enumerate((0.0, *choices.dampings))
         ]
         return row_of(runs)
@@ -84,7 +86,7 @@ def unstable_of(block: Block, number: int) -> Unstable:
     return Unstable(packing.checked(), value, mode)
 
 
-def check(start: Unstable, rule: Interaction) -> None:
+def check(start: Unstable, interaction: Interaction) -> None:
     """Refuse a pair that is none of the state's.
 
     Raises:
@@ -94,7 +96,7 @@ def check(start: Unstable, rule: Interaction) -> None:
         raise ArithmeticError(
             f"the pair: expected Im above {REAL:.1e}, got {start.eigenvalue.imag:.1e}"
         )
-    residual = start.residual(rule)
+    residual = start.residual(interaction)
     if not residual < EXACT:
         raise ArithmeticError(f"the mode: expected a residual below {EXACT}, got {residual:.1e}")
 

@@ -87,9 +87,9 @@ def trajectory_of(block: Block, number: int) -> Trajectory:
 
 def packed(packing: Packing, normal) -> dict[str, object]:
     """The row of a packing at rest, without friction."""
-    rule = Interaction(normal, Frictionless())
+    interaction = Interaction(normal, Frictionless())
     contacts = find_contacts(packing)
-    force, _ = largest(net_force(packing, contacts, rule))
+    force, _ = largest(net_force(packing, contacts, interaction))
     gone = rattlers(contacts, packing.n, threshold=2)
     held = ~(gone[contacts.i] | gone[contacts.j])
     backbone = packing.n - int(gone.sum())
@@ -97,10 +97,10 @@ def packed(packing: Packing, normal) -> dict[str, object]:
         "position": packing.position,
         "contact_i": contacts.i,
         "contact_j": contacts.j,
-        "pressure": -float(np.trace(stress(packing, contacts, rule))) / 2.0,
+        "pressure": -float(np.trace(stress(packing, contacts, interaction))) / 2.0,
         "contact_number": 2.0 * held.sum() / backbone if backbone else 0.0,
         "rattler_count": packing.n - backbone,
-        "jammed": is_jammed(packing, contacts, rule, force),
+        "jammed": is_jammed(packing, contacts, interaction, force),
         "max_force": force,
     }
 

@@ -14,7 +14,7 @@ from typing import Protocol
 import numpy as np
 
 from grainmodes.dataset.files import Block
-from grainmodes.kernels.laws import Interaction, interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import is_frictionless
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
@@ -53,19 +53,21 @@ def shear_block(
 
     `coarse_run`: once more without brackets, and the first event in brackets of every width.
     """
-    rule = interaction(law)
+    interaction = Interaction.from_law(law)
 
     def sample(number: int) -> dict[str, object]:
-        packing, jammed = jammed_packing(packings, number, rule)
+        packing, jammed = jammed_packing(packings, number, interaction)
         seed = seed_of(packings, number)
         if not jammed:
             return {"curve_count": 0, "jammed": False, "converged": True}
-        walk = walked(packing, rule, choices, keeper, f"seed-{seed}")
+        walk = walked(packing, interaction, choices, keeper, f"seed-{seed}")
         row = row_of(walk) | ({} if walk.done else {"failure": walk.ending})
         if coarse_run:
             coarse = replace(choices, min_step=choices.step)
-            row |= _unbracketed(walked(packing, rule, coarse, keeper, f"seed-{seed}-coarse_run"))
-            row |= bracket_ends(brackets(packing, rule, choices))
+            row |= _unbracketed(
+                walked(packing, interaction, coarse, keeper, f"seed-{seed}-coarse_run")
+            )
+            row |= bracket_ends(brackets(packing, interaction, choices))
         return row
 
     config = {"law": asdict(law), "shear": asdict(choices), "coarse_run": coarse_run}
@@ -73,10 +75,10 @@ def shear_block(
 
 
 def walked(
-    packing: Packing, rule: Interaction, choices: Shear, keeper: Keeper | None, name: str
+    packing: Packing, interaction: Interaction, choices: Shear, keeper: Keeper | None, name: str
 ) -> Walk:
     """A walk as far as it goes, taken up where its keeper has it."""
-    walk = (keeper and keeper.kept(name)) or Walk.start(packing, rule, choices)
+    walk = (keeper and keeper.kept(name)) or Walk.start(packing, interaction, choices)
     while not walk.done and walk.advance():
         if keeper:
             keeper.watch(name, walk)
@@ -94,12 +96,12 @@ def _unbracketed(walk: Walk) -> dict[str, object]:
 def row_of(walk: Walk) -> dict[str, object]:
     """All that was recorded on the way; not converged where it ended before the last strain."""
     balance = walk.now.balance
-    packing, rule = balance.packing, balance.interaction
+    packing, interaction = balance.packing, balance.interaction
     still = {name: getattr(packing, name) for name in ("diameter", "mass", "box_length")}
     return {
         **still,
         **_curve(walk.curve),
-        **_events(walk.events, rule),
+        **_events(walk.events, interaction),
         "last_asymmetry": asymmetry(balance.matrix),
         "last_complex_pairs": _pairs(balance),
         **_changes(walk.changes),
@@ -126,7 +128,7 @@ def _curve(points: list[Point]) -> dict[str, object]:
     }
 
 
-def _events(events: list[Event], rule: Interaction) -> dict[str, object]:
+def _events(events: list[Event], interaction: Interaction) -> dict[str, object]:
     row: dict[str, object] = {"event_count": len(events)}
     if not events:
         return row
@@ -136,9 +138,9 @@ def _events(events: list[Event], rule: Interaction) -> dict[str, object]:
     row["event_displacement"] = np.stack([_three(e.displacement) for e in events])
     poles = [rotational_poles(e.after, e.displacement) for e in events]
     row["event_quadrupole"], row["event_other_multipoles"] = zip(*poles, strict=True)
-    row["event_reopened"] = [reopened(e.before, e.after, rule) for e in events]
+    row["event_reopened"] = [reopened(e.before, e.after, interaction) for e in events]
     for number, side in enumerate(("before", "after")):
-        balances = [Balance.of(getattr(e, side), rule) for e in events]
+        balances = [Balance.of(getattr(e, side), interaction) for e in events]
         row |= _side(side, balances, [e.points[number] for e in events])
     row["event_complex_pairs_after"] = [_pairs(balance) for balance in balances]
     return row

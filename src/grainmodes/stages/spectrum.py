@@ -18,7 +18,7 @@ from dataclasses import asdict
 import numpy as np
 
 from grainmodes.dataset.files import Block
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.hessian import effective_hessian
 from grainmodes.packing.state import backbone, find_contacts
 from grainmodes.parameters.factors import FACTORISATIONS
@@ -40,20 +40,20 @@ def spectrum_block(
     processes: int = 1,
 ) -> Block:
     """The spectrum of every packing without its rattlers; `processes` share its windows."""
-    rule, threshold = interaction(law), rattlers.largest(law)
+    interaction, threshold = Interaction.from_law(law), rattlers.largest(law)
     edges = fixed_edges(law.kt, choices.bin_density)
 
     def sample(number: int) -> dict[str, object]:
-        packing, jammed = jammed_packing(packings, number, rule)
+        packing, jammed = jammed_packing(packings, number, interaction)
         if not jammed:
             return _nothing(kind, edges, _columns(packing, law))
-        of = problem(packing, rule, threshold)
+        of = problem(packing, interaction, threshold)
         if kind in BINNED:
             return _bins(band_averages(of, edges, kind == "binned_averages", choices), kind)
         if kind == "eigenvalues" or not of.symmetric:
             found = full_spectrum(of, kind == "modes", None, choices, processes)
             return _modes(found, _columns(packing, law), kind)
-        by_mode = ModeRigidity(packing, rule, threshold)
+        by_mode = ModeRigidity(packing, interaction, threshold)
         found = full_spectrum(of, True, by_mode.forces, choices, processes)
         shares = by_mode.contributions(found)
         return _modes(found, _columns(packing, law), kind) | {
@@ -67,11 +67,11 @@ def rattlers_block(
     packings: Block, law: ContactLaw, kind: str, choices: SpectrumChoices, processes: int = 1
 ) -> Block:
     """The spectrum of every packing with its rattlers left in J: A, App. E."""
-    rule = interaction(law)
+    interaction = Interaction.from_law(law)
 
     def sample(number: int) -> dict[str, object]:
-        packing, _ = jammed_packing(packings, number, rule)
-        of = problem(packing, rule, keep_rattlers=True)
+        packing, _ = jammed_packing(packings, number, interaction)
+        of = problem(packing, interaction, keep_rattlers=True)
         found = full_spectrum(of, kind == "modes", None, choices, processes)
         row = _modes(found, _columns(packing, law), kind)
         kept = ("eigenvalue", "psi_rotational", "participation_ratio", "mode_count")
@@ -86,17 +86,17 @@ def hessian_block(
     packings: Block, law: ContactLaw, rattlers: Rattlers, choices: SpectrumChoices
 ) -> Block:
     """Modes of the effective Hessian in bins, tangent stiffnesses and printed ones: A, (H4)."""
-    rule, threshold = interaction(law), rattlers.largest(law)
+    interaction, threshold = Interaction.from_law(law), rattlers.largest(law)
     edges = fixed_edges(law.kt, choices.bin_density)
 
     def sample(number: int) -> dict[str, object]:
-        packing, jammed = jammed_packing(packings, number, rule)
+        packing, jammed = jammed_packing(packings, number, interaction)
         row: dict[str, object] = {"bin_edge": edges, "converged": True}
         grains = backbone(packing, threshold)
         for stiffness, name in (("tangent", "hessian"), ("printed", "hessian_printed")):
             count = np.zeros(len(edges) - 1, dtype=int)
             if jammed:
-                matrix = effective_hessian(grains, find_contacts(grains), rule, stiffness)
+                matrix = effective_hessian(grains, find_contacts(grains), interaction, stiffness)
                 of = Problem(matrix, matrix.shape[0] // grains.n, symmetric=True)
                 count = band_averages(of, edges, False, choices).count
             row[f"bin_count_{name}"] = count

@@ -17,7 +17,7 @@ from grainmodes.complex_pairs.definition import (
     translations,
 )
 from grainmodes.complex_pairs.disc_sweep import _shifts_above, pairs_by_windows
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
@@ -28,9 +28,11 @@ CHOICES = Shear(step=1e-3, min_step=1e-3, force_tolerance=5e-14)
 
 def sheared(coefficient: float) -> sparse.csr_array:
     """K of 64 grains of mass 1 at γ = 0.02."""
-    rule = interaction(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, coefficient))
+    interaction = Interaction.from_law(
+        ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, coefficient)
+    )
     packing = reference("hertz_n64_phi0.900_seed1")[1]
-    now = first_balance(replace(packing, mass=np.ones(packing.n)), rule, CHOICES)
+    now = first_balance(replace(packing, mass=np.ones(packing.n)), interaction, CHOICES)
     for step in range(1, 21):
         now, _ = step_to(1e-3 * step, now, CHOICES)
     return mass_weighted_jacobian(now.matrix, now.backbone.mass)

@@ -88,21 +88,21 @@ each_law = pytest.mark.parametrize("name", OUTSIDE)
 each_slip = pytest.mark.parametrize("slip", [0.0, 1.0])
 
 
-def differences(packing: Packing, rule: Interaction, h: float = 1e-6) -> np.ndarray:
+def differences(packing: Packing, interaction: Interaction, h: float = 1e-6) -> np.ndarray:
     """−∂F̃/∂q, dense (3N, 3N), by central differences of the net forces."""
     contacts, columns = find_contacts(packing), []
     for u in np.eye(3 * packing.n).reshape(-1, packing.n, 3):
-        ahead, behind = (moved_by(packing, contacts, rule, way * h * u) for way in (1, -1))
-        forces = (net_force(each, find_contacts(each), rule) for each in (ahead, behind))
+        ahead, behind = (moved_by(packing, contacts, interaction, way * h * u) for way in (1, -1))
+        forces = (net_force(each, find_contacts(each), interaction) for each in (ahead, behind))
         columns.append(-np.subtract(*forces).ravel() / (2 * h))
     return np.array(columns).T
 
 
-def balanced(rule: Interaction, strain: float) -> Packing:
+def balanced(interaction: Interaction, strain: float) -> Packing:
     """A packing in balance under the law, its springs loaded by a strain if there is one."""
-    relaxed = newton(quenched(36, 0.92), Interaction(rule.normal, Frictionless()), 1e-14)
+    relaxed = newton(quenched(36, 0.92), Interaction(interaction.normal, Frictionless()), 1e-14)
     if strain:
-        relaxed = newton(relaxed.packing.sheared(strain), rule, 1e-14, 40)
+        relaxed = newton(relaxed.packing.sheared(strain), interaction, 1e-14, 40)
     assert relaxed.converged
     return relaxed.packing
 
@@ -110,50 +110,52 @@ def balanced(rule: Interaction, strain: float) -> Packing:
 @each_law
 @each_slip
 def test_its_forces_are_those_written_down(name, slip):
-    rule, formula = OUTSIDE[name]
+    interaction, formula = OUTSIDE[name]
     contacts = find_contacts(crowd(51, slip=slip))
     f_n, f_t = formula(contacts.overlap, contacts.displacement)
     written = f_n[:, None] * contacts.normal + f_t[:, None] * contacts.tangent
-    np.testing.assert_allclose(forces_on_i(contacts, rule), np.c_[written, f_t], rtol=1e-12)
+    np.testing.assert_allclose(forces_on_i(contacts, interaction), np.c_[written, f_t], rtol=1e-12)
 
 
 @each_law
 @each_slip
 def test_its_jacobian_is_central_differences_of_the_forces(name, slip):
-    rule, packing = OUTSIDE[name][0], crowd(52, strain=0.2, slip=slip)
-    matrix = jacobian(packing, find_contacts(packing), rule).toarray()
-    np.testing.assert_allclose(matrix, differences(packing, rule), atol=2e-9)
+    interaction, packing = OUTSIDE[name][0], crowd(52, strain=0.2, slip=slip)
+    matrix = jacobian(packing, find_contacts(packing), interaction).toarray()
+    np.testing.assert_allclose(matrix, differences(packing, interaction), atol=2e-9)
     assert (np.abs(matrix - matrix.T).max() > 1e-3) == (slip > 0.0)
 
 
 @each_law
 @each_slip
 def test_its_spectrum_is_that_of_the_differences(name, slip):
-    rule, packing = OUTSIDE[name][0], crowd(53, slip=slip)
-    found = spectrum(packing, rule, keep_rattlers=True)
-    expected = np.sort_complex(np.linalg.eigvals(differences(packing, rule)))
+    interaction, packing = OUTSIDE[name][0], crowd(53, slip=slip)
+    found = spectrum(packing, interaction, keep_rattlers=True)
+    expected = np.sort_complex(np.linalg.eigvals(differences(packing, interaction)))
     np.testing.assert_allclose(np.sort_complex(found.eigenvalue), expected, atol=1e-7)
     assert found.residual < 1e-13
     if not slip:
-        below = problem(packing, rule, keep_rattlers=True).shift().factor_at(0.25).n_below
+        below = problem(packing, interaction, keep_rattlers=True).shift().factor_at(0.25).n_below
         assert below == np.count_nonzero(expected.real < 0.25)
 
 
 @each_law
 @pytest.mark.parametrize("strain", [0.0, 1e-3])
 def test_its_rigidity_is_that_of_a_step_strain(name, strain):
-    rule = OUTSIDE[name][0]
-    packing = balanced(rule, strain)
+    interaction = OUTSIDE[name][0]
+    packing = balanced(interaction, strain)
     # With friction a grain of two contacts carries a load.
-    simulated = step_strain(packing, rule, StepStrain(), threshold=1)
+    simulated = step_strain(packing, interaction, StepStrain(), threshold=1)
     assert simulated.converged
-    assert rigidity(packing, rule, threshold=1).unloaded.g == pytest.approx(simulated.g, rel=1e-8)
+    assert rigidity(packing, interaction, threshold=1).unloaded.g == pytest.approx(
+        simulated.g, rel=1e-8
+    )
 
 
 def test_a_line_in_the_table_names_it(monkeypatch):
     monkeypatch.setitem(laws.TANGENTIAL, "logistic", Logistic)
-    rule = laws.interaction(ContactLaw("hertz", "logistic", 0.3, 0.4))
-    assert rule == OUTSIDE["logistic"][0] and type(rule.tangential) is Logistic
+    interaction = Interaction.from_law(ContactLaw("hertz", "logistic", 0.3, 0.4))
+    assert interaction == OUTSIDE["logistic"][0] and type(interaction.tangential) is Logistic
 
 
 EDITED = """

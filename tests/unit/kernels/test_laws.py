@@ -17,11 +17,11 @@ from grainmodes.kernels.laws import (
     Frictionless,
     Harmonic,
     Hertz,
+    Interaction,
     SharpCoulomb,
     SharpCoulombForce,
     SmoothedCoulomb,
-    admissible,
-    interaction,
+    clip_to_coulomb,
     tangential_response,
 )
 from grainmodes.parameters.law import (
@@ -44,7 +44,7 @@ def response(tangential, normal, overlap, displacement):
 
 @kernel
 def kept(tangential, normal, overlap, displacement):
-    return admissible(tangential, normal, overlap, displacement)
+    return clip_to_coulomb(tangential, normal, overlap, displacement)
 
 
 def threshold(law: ContactLaw, overlap: float) -> float:
@@ -57,7 +57,7 @@ def threshold(law: ContactLaw, overlap: float) -> float:
 @given(overlap=overlaps, ratio=ratios)
 def test_forces_are_those_of_the_slow_twin(law, overlap, ratio):
     s = ratio * threshold(law, overlap)
-    forces = contact_forces(interaction(law), RIGHT, np.array([overlap]), np.array([s]))
+    forces = contact_forces(Interaction.from_law(law), RIGHT, np.array([overlap]), np.array([s]))
     f_n, f_t = naive.normal_force(law, overlap), naive.tangential_force(law, overlap, s)
     np.testing.assert_allclose(forces, [[f_n, -f_t, f_t]], rtol=1e-13)
 
@@ -67,8 +67,8 @@ def test_forces_are_those_of_the_slow_twin(law, overlap, ratio):
 @given(overlap=overlaps, ratio=ratios)
 def test_slopes_are_complex_steps_of_the_force(law, overlap, ratio):
     s, h = ratio * threshold(law, overlap), naive.COMPLEX_STEP
-    both = interaction(law)
-    _, by_s, by_overlap = response(both.tangential, both.normal, overlap, s)
+    interaction = Interaction.from_law(law)
+    _, by_s, by_overlap = response(interaction.tangential, interaction.normal, overlap, s)
     slid = s + naive.remembered(law, overlap, 1j * h)
     exact_by_s = naive.tangential_force(law, overlap, slid).imag / h
     exact_by_overlap = np.imag(naive.tangential_force(law, overlap + 1j * h, s)) / h
@@ -79,7 +79,7 @@ def test_slopes_are_complex_steps_of_the_force(law, overlap, ratio):
 @pytest.mark.parametrize("law", FRICTIONLESS, ids=law_name)
 def test_normal_slope_is_a_complex_step_of_the_force(law):
     overlap, h = np.array([1e-9, 1e-4, 0.02, 0.3]), naive.COMPLEX_STEP
-    slope = normal_slope(interaction(law).normal, overlap)
+    slope = normal_slope(Interaction.from_law(law).normal, overlap)
     exact = [naive.normal_force(law, xi + 1j * h).imag / h for xi in overlap]
     np.testing.assert_allclose(slope, exact, rtol=1e-13)
 
@@ -88,8 +88,10 @@ def test_normal_slope_is_a_complex_step_of_the_force(law):
 @few(50)
 @given(overlap=overlaps, ratio=st.floats(-5.0, 5.0))
 def test_coulomb_laws_obey_coulomb(law, overlap, ratio):
-    both = interaction(law)
-    f_t, _, _ = response(both.tangential, both.normal, overlap, ratio * threshold(law, overlap))
+    interaction = Interaction.from_law(law)
+    f_t, _, _ = response(
+        interaction.tangential, interaction.normal, overlap, ratio * threshold(law, overlap)
+    )
     limit = law.friction_coefficient * naive.normal_force(law, overlap)
     assert abs(f_t) <= limit * (1 + 1e-12)
     if abs(ratio) > 1.0:
@@ -100,9 +102,10 @@ def test_coulomb_laws_obey_coulomb(law, overlap, ratio):
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_smoothed_coulomb_meets_the_coulomb_force_with_slope_zero(normal, sign):
     law, overlap = ContactLaw(normal, "smoothed_coulomb", 0.3, 0.4), 0.05
-    both, s = interaction(law), sign * threshold(law, overlap)
+    interaction, s = Interaction.from_law(law), sign * threshold(law, overlap)
     below, above = (
-        response(both.tangential, both.normal, overlap, s * (1 + side)) for side in (-1e-10, 1e-10)
+        response(interaction.tangential, interaction.normal, overlap, s * (1 + side))
+        for side in (-1e-10, 1e-10)
     )
     np.testing.assert_allclose(below, above, rtol=1e-7, atol=1e-9)
     assert above[1] == 0.0
@@ -112,11 +115,11 @@ def test_smoothed_coulomb_meets_the_coulomb_force_with_slope_zero(normal, sign):
 def test_only_sharp_coulomb_gives_displacement_away(normal):
     overlap = 0.05
     for law in (law for law in LAWS if law.normal == normal):
-        both, limit = interaction(law), threshold(law, overlap)
+        interaction, limit = Interaction.from_law(law), threshold(law, overlap)
         sharp = law.tangential.startswith("sharp_coulomb")
         for s in (-2 * limit, -0.5 * limit, 0.0, 0.9 * limit, 3 * limit):
             expected = float(np.clip(s, -limit, limit)) if sharp else s
-            left = kept(both.tangential, both.normal, overlap, s)
+            left = kept(interaction.tangential, interaction.normal, overlap, s)
             assert left == pytest.approx(expected, rel=1e-13)
 
 
@@ -132,15 +135,17 @@ def test_only_sharp_coulomb_gives_displacement_away(normal):
     ],
 )
 def test_a_law_is_a_type(law, normal, tangential):
-    both = interaction(law)
+    interaction = Interaction.from_law(law)
     # Named tuples of different types are equal if their numbers are: compare the types as well.
-    assert (type(both.normal), both.normal) == (type(normal), normal)
-    assert (type(both.tangential), both.tangential) == (type(tangential), tangential)
+    assert (type(interaction.normal), interaction.normal) == (type(normal), normal)
+    assert (type(interaction.tangential), interaction.tangential) == (type(tangential), tangential)
 
 
 @pytest.mark.parametrize("tangential", TANGENTIAL_LAWS)
 def test_no_stiffness_is_no_friction(tangential):
-    assert type(interaction(ContactLaw("hertz", tangential, 0.0)).tangential) is Frictionless
+    assert (
+        type(Interaction.from_law(ContactLaw("hertz", tangential, 0.0)).tangential) is Frictionless
+    )
 
 
 @pytest.mark.parametrize(
@@ -157,7 +162,7 @@ def test_no_stiffness_is_no_friction(tangential):
 )
 def test_a_law_that_is_none_is_refused_by_name(law, named):
     with pytest.raises(ValueError, match=named):
-        interaction(law)
+        Interaction.from_law(law)
 
 
 def test_the_names_of_scenes_are_those_of_the_types():

@@ -44,12 +44,12 @@ def test_every_pair_once_and_no_other(seed, n, box_length, strain, skin):
 def test_list_is_sorted_and_indexed_by_the_left_grain(strain):
     packing = scattered(3, 40, 6.0, strain)
     pairs = listed(packing, 0.2)
-    assert pairs.first[0] == 0 and pairs.first[-1] == len(pairs.left) == len(pairs.reach)
+    assert pairs.first[0] == 0 and pairs.first[-1] == len(pairs.left) == len(pairs.contact_distance)
     for i in range(packing.n):
         assert np.all(pairs.left[pairs.first[i] : pairs.first[i + 1]] == i)
     assert np.all(pairs.right > pairs.left)
     mean = (packing.diameter[pairs.left] + packing.diameter[pairs.right]) / 2
-    np.testing.assert_array_equal(pairs.reach, mean)
+    np.testing.assert_array_equal(pairs.contact_distance, mean)
 
 
 @pytest.mark.parametrize("cells", [1, 2, 3, 4, 7])

@@ -100,8 +100,8 @@ def test_factorisations_agree():
 
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_two_factorisations_live_side_by_side(backend):
-    rule = elastic("hertz", 1e-4)
-    matrices = [problem(quenched(n, 0.90), rule).matrix for n in (64, 256)]
+    interaction = elastic("hertz", 1e-4)
+    matrices = [problem(quenched(n, 0.90), interaction).matrix for n in (64, 256)]
     alone = [SymmetricShift(matrix, backend).factor_at(0.3).n_below for matrix in matrices]
     shifts = [SymmetricShift(matrix, backend).factor_at(0.3) for matrix in matrices]
     right = np.ones(shifts[0].size)

@@ -229,5 +229,5 @@ def test_brackets(monkeypatch):
 
 
 def test_a_shear_without_an_event_has_no_critical_strain():
-    packing, rule = backtracking.harmonic(32, 0), backtracking.FRICTION
-    assert math.isnan(backtracking.critical_strain(packing, rule, backtracking.Shear(2e-4)))
+    packing, interaction = backtracking.harmonic(32, 0), backtracking.FRICTION
+    assert math.isnan(backtracking.critical_strain(packing, interaction, backtracking.Shear(2e-4)))

@@ -5,7 +5,7 @@ import pytest
 
 import exact
 from example_packings import quenched
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import net_force
 from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.compression import Compression
@@ -34,7 +34,7 @@ def here(monkeypatch):
 
 def problem_at(kappa: float, n: int = 16):
     """The eigenproblem of a small packing."""
-    return problem(quenched(n, 0.9), interaction(ContactLaw(kt=kappa)))
+    return problem(quenched(n, 0.9), Interaction.from_law(ContactLaw(kt=kappa)))
 
 
 def test_a_coarse_compression_jams_at_a_lower_grid_point(monkeypatch):

@@ -9,7 +9,7 @@ import scipy.linalg
 from example_packings import BACKENDS, quenched
 from grainmodes.kernels.dynamics import integrate
 from grainmodes.kernels.fire import fire
-from grainmodes.kernels.laws import Hertz, interaction
+from grainmodes.kernels.laws import Hertz, Interaction
 from grainmodes.kernels.neighbours import find_neighbours
 from grainmodes.kernels.repulsion import add_forces
 from grainmodes.linalg import pinned_factor
@@ -33,13 +33,13 @@ from grainmodes.relaxation import newton
 from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import band_averages, dense, full_spectrum, problem, spectrum_slicing
 
-NO_FRICTION = interaction(ContactLaw())
-FRICTION = interaction(ContactLaw(kt=1e-2))
+NO_FRICTION = Interaction.from_law(ContactLaw())
+FRICTION = Interaction.from_law(ContactLaw(kt=1e-2))
 EDGES = np.array([1e-6, 0.1, 0.5, 1.0, 3.0])
 PLACES = {"x", "y", "vx", "vy", "fx", "fy", "origin_x", "origin_y", "diameter", "inverse_mass"}
 """Arrays of FIRE over the grains."""
 
-PAIRS = {"left", "right", "reach"}
+PAIRS = {"left", "right", "contact_distance"}
 """Arrays of its inner loop over the pairs."""
 
 
@@ -87,8 +87,8 @@ TANGENTIAL = (
     (History, "__init__"),
     (forces, "contact_forces"),
     (jacobian, "contact_stiffness"),
-    (newton, "stretched"),
-    (newton, "kept_displacement"),
+    (newton, "advance_springs"),
+    (newton, "clip_springs"),
 )
 
 
@@ -138,11 +138,14 @@ def bytes_of(packing: Packing) -> int:
 VECTORS = ((dense, "eigenpairs"), (spectrum_slicing, "eigenpairs"), (spectrum_slicing, "nearest"))
 
 
-@pytest.mark.parametrize("rule", [NO_FRICTION, FRICTION], ids=["frictionless", "frictional"])
+@pytest.mark.parametrize("interaction", [NO_FRICTION, FRICTION], ids=["frictionless", "frictional"])
 @pytest.mark.parametrize("method", ["dense", "inertia_counts"])
 @pytest.mark.parametrize("backend", BACKENDS)
-def test_counts_need_no_eigenvector(monkeypatch, rule, method, backend):
-    eigenproblem, choices = problem(quenched(36, 0.92), rule), SpectrumChoices(method, backend)
+def test_counts_need_no_eigenvector(monkeypatch, interaction, method, backend):
+    eigenproblem, choices = (
+        problem(quenched(36, 0.92), interaction),
+        SpectrumChoices(method, backend),
+    )
     by_vectors = band_averages(eigenproblem, EDGES, True, choices).count
     refuse(monkeypatch, *VECTORS)
     found = band_averages(eigenproblem, EDGES, False, choices)

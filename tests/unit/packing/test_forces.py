@@ -16,7 +16,7 @@ from example_packings import (
     reference,
     smoothed_coulomb,
 )
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import (
     forces_on_i,
     is_frictionless,
@@ -36,10 +36,10 @@ STRAINS = (-0.5, 0.0, 0.3)
 def test_net_force_and_stress_are_those_of_the_slow_twin(law, slip, strain):
     packing = crowd(11, strain=strain, slip=slip)
     contacts, pairs = contacts_and_pairs(packing)
-    force = net_force(packing, contacts, interaction(law))
+    force = net_force(packing, contacts, Interaction.from_law(law))
     np.testing.assert_allclose(force, naive.net_force(law, pairs, packing.n), atol=1e-14)
     np.testing.assert_allclose(
-        stress(packing, contacts, interaction(law)),
+        stress(packing, contacts, Interaction.from_law(law)),
         naive.stress(law, pairs, packing.box_length),
         atol=1e-15,
     )
@@ -49,31 +49,31 @@ def test_net_force_and_stress_are_those_of_the_slow_twin(law, slip, strain):
 def test_without_friction_there_is_no_torque(law):
     packing = crowd(11, strain=0.3)
     contacts, pairs = contacts_and_pairs(packing)
-    force = net_force(packing, contacts, interaction(law))
+    force = net_force(packing, contacts, Interaction.from_law(law))
     assert force.shape == (packing.n, 2)
     twin = naive.net_force(law, pairs, packing.n)
     np.testing.assert_allclose(force, twin[:, :2], atol=1e-14)
     assert largest(force)[1] == 0.0
-    assert is_frictionless(interaction(law))
+    assert is_frictionless(Interaction.from_law(law))
 
 
 @pytest.mark.parametrize("law", LAWS + FRICTIONLESS, ids=law_name)
 def test_forces_cancel_in_the_sum(law):
     packing = crowd(8, strain=-0.2, slip=0.7)
-    force = net_force(packing, find_contacts(packing), interaction(law))
+    force = net_force(packing, find_contacts(packing), Interaction.from_law(law))
     np.testing.assert_allclose(force[:, :2].sum(axis=0), 0.0, atol=1e-14)
 
 
 def test_torque_of_a_sliding_pair_has_one_sign():
     packing = crowd(8, slip=0.5)
     contacts = find_contacts(packing)
-    law = interaction(LAWS[0])
-    on_i = forces_on_i(contacts, law)
+    interaction = Interaction.from_law(LAWS[0])
+    on_i = forces_on_i(contacts, interaction)
     np.testing.assert_allclose(
         on_i[:, 2], np.sum(on_i[:, :2] * contacts.tangent, axis=1), atol=1e-15
     )
     assert np.all(on_i[:, 2] * contacts.displacement < 0.0)
-    total = net_force(packing, contacts, law)[:, 2]
+    total = net_force(packing, contacts, interaction)[:, 2]
     assert total.sum() == pytest.approx(2.0 * on_i[:, 2].sum(), abs=1e-14)
 
 
@@ -91,10 +91,10 @@ def test_friction_switched_on_in_a_balance_changes_nothing(name):
 
 def test_sheared_reference_is_in_balance_and_has_its_stress():
     data, packing = reference(SHEARED)
-    law = interaction(smoothed_coulomb(data))
+    interaction = Interaction.from_law(smoothed_coulomb(data))
     contacts = find_contacts(packing)
-    assert max(largest(net_force(packing, contacts, law))) < 5e-15
-    sigma = stress(packing, contacts, law)
+    assert max(largest(net_force(packing, contacts, interaction))) < 5e-15
+    sigma = stress(packing, contacts, interaction)
     expected = [data.sigma_xy, data.sigma_yx, data.sigma_yy]
     np.testing.assert_allclose([sigma[0, 1], sigma[1, 0], sigma[1, 1]], expected, rtol=1e-10)
 
@@ -103,10 +103,10 @@ def test_mean_force_and_largest_force():
     position = [[1.0, 1.0], [1.91, 1.0], [4.0, 4.0], [4.0, 4.96]]
     packing = Packing.from_positions(position, np.ones(4), 8.0)
     contacts = find_contacts(packing)
-    law = elastic("harmonic", 0.0)
-    assert mean_contact_force(contacts, law) == pytest.approx((0.09 + 0.04) / 2)
-    assert largest(net_force(packing, contacts, law)) == (pytest.approx(0.09), 0.0)
+    interaction = elastic("harmonic", 0.0)
+    assert mean_contact_force(contacts, interaction) == pytest.approx((0.09 + 0.04) / 2)
+    assert largest(net_force(packing, contacts, interaction)) == (pytest.approx(0.09), 0.0)
     alone = find_contacts(Packing.from_positions(position[1:3], np.ones(2), 8.0))
-    assert mean_contact_force(alone, law) == 0.0
+    assert mean_contact_force(alone, interaction) == 0.0
     assert largest(np.zeros((0, 3))) == (0.0, 0.0)
     assert largest(np.array([[0.1, -0.3, 0.2], [0.2, 0.0, -0.5]])) == (0.3, 0.5)

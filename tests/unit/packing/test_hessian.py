@@ -5,7 +5,7 @@ import pytest
 
 import naive_hessian
 from example_packings import ELASTIC, FRICTIONLESS, LAWS, crowd, law_name, pairs_of, reference
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.hessian import STIFFNESSES, effective_hessian
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing, find_contacts
@@ -14,11 +14,11 @@ from grainmodes.parameters.law import ContactLaw
 
 def dense(packing: Packing, law: ContactLaw, stiffness: str = "tangent") -> np.ndarray:
     contacts = find_contacts(packing)
-    return effective_hessian(packing, contacts, interaction(law), stiffness).toarray()
+    return effective_hessian(packing, contacts, Interaction.from_law(law), stiffness).toarray()
 
 
 def dynamical(packing: Packing, law: ContactLaw) -> np.ndarray:
-    return jacobian(packing, find_contacts(packing), interaction(law)).toarray()
+    return jacobian(packing, find_contacts(packing), Interaction.from_law(law)).toarray()
 
 
 @pytest.mark.parametrize("stiffness", STIFFNESSES)

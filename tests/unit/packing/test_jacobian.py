@@ -19,7 +19,7 @@ from example_packings import (
     reference,
     smoothed_coulomb,
 )
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.contacts import History
 from grainmodes.packing.jacobian import assemble, jacobian, stiffness_of
 from grainmodes.packing.state import Packing, find_contacts
@@ -30,7 +30,7 @@ COULOMB = [law for law in LAWS if law.friction_coefficient]
 
 
 def dense(packing: Packing, law) -> np.ndarray:
-    return jacobian(packing, find_contacts(packing), interaction(law)).toarray()
+    return jacobian(packing, find_contacts(packing), Interaction.from_law(law)).toarray()
 
 
 def close(matrix: np.ndarray, twin: np.ndarray, accuracy: float) -> None:

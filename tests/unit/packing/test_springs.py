@@ -7,8 +7,8 @@ import naive
 from example_packings import LAWS, crowd, keeping, law_name
 from grainmodes.kernels.damping import Undamped
 from grainmodes.kernels.dynamics import Stop
-from grainmodes.kernels.laws import interaction
-from grainmodes.kernels.springs import advanced_displacement, kept_displacement
+from grainmodes.kernels.laws import Interaction
+from grainmodes.kernels.springs import advance_by_slide, clip_springs
 from grainmodes.packing.forces import forces_on_i
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing, find_contacts
@@ -22,27 +22,27 @@ OVERLAP = np.array([1e-4, 0.02, 0.3])
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
 def test_a_spring_advances_by_what_its_law_makes_of_the_slide(law):
     had, slide = np.array([0.0, 1e-3, -2e-3]), np.array([1e-5, -2e-4, 3e-3])
-    after = advanced_displacement(interaction(law), OVERLAP, had, slide)
+    after = advance_by_slide(Interaction.from_law(law), OVERLAP, had, slide)
     expected = had + naive.remembered(law, OVERLAP, slide)
     np.testing.assert_allclose(after, expected, rtol=1e-14)
 
 
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
 def test_a_contact_that_closes_on_the_way_loads_no_force_before(law):
-    rule, had, slide = interaction(law), np.zeros(1), np.array([1e-3])
+    interaction, had, slide = Interaction.from_law(law), np.zeros(1), np.array([1e-3])
     if law.normal == "hertz" and naive.remembers_force(law):
-        assert advanced_displacement(rule, np.array([-0.1]), had, slide)[0] == 0.0
+        assert advance_by_slide(interaction, np.array([-0.1]), had, slide)[0] == 0.0
     else:
-        assert advanced_displacement(rule, np.array([-0.1]), had, slide)[0] != 0.0
+        assert advance_by_slide(interaction, np.array([-0.1]), had, slide)[0] != 0.0
 
 
 @pytest.mark.parametrize("law", FORCE_LAWS, ids=law_name)
 def test_a_remembered_force_does_not_feel_the_overlap(law):
     """At a fixed history ∂f_T/∂ξ = 0, until Coulomb cuts it."""
-    rule, h = interaction(law), np.full(3, 1e-9)
+    interaction, h = Interaction.from_law(law), np.full(3, 1e-9)
     forces = [-naive.tangential_force(law, overlap, h[0]) / h[0] for overlap in (1e-4, 0.02, 0.3)]
     np.testing.assert_array_equal(forces, 1.0)
-    np.testing.assert_array_equal(kept_displacement(rule, OVERLAP, h), h)
+    np.testing.assert_array_equal(clip_springs(interaction, OVERLAP, h), h)
 
 
 @pytest.mark.parametrize("tangential", ["elastic", "sharp_coulomb"])
@@ -52,7 +52,8 @@ def test_harmonic_contacts_cannot_tell_what_is_remembered(tangential):
     by_force = ContactLaw("harmonic", f"{tangential}_force", 0.3, coefficient)
     packing = crowd(81, slip=1.2)
     one, other = (
-        (find_contacts(keeping(law, packing)), interaction(law)) for law in (by_s, by_force)
+        (find_contacts(keeping(law, packing)), Interaction.from_law(law))
+        for law in (by_s, by_force)
     )
     np.testing.assert_allclose(forces_on_i(*other), forces_on_i(*one), rtol=1e-14)
     matrices = [jacobian(packing, *state).toarray() for state in (one, other)]
@@ -67,14 +68,16 @@ def spun(law: ContactLaw, steps: int):
     """Two grains pressed together that turn against each other, after some steps."""
     start = np.zeros((2, 3))
     start[:, 2] = 0.05
-    return move(pressed(0.02), start, interaction(law), Undamped(), 1e-2, Stop(0.0, steps))
+    return move(pressed(0.02), start, Interaction.from_law(law), Undamped(), 1e-2, Stop(0.0, steps))
 
 
 @pytest.mark.parametrize("law", FORCE_LAWS, ids=law_name)
 def test_a_force_is_forgotten_when_a_contact_opens_and_starts_anew(law):
-    rule, touching = interaction(law), spun(law, 20)
+    interaction, touching = Interaction.from_law(law), spun(law, 20)
     assert abs(find_contacts(touching.packing).displacement[0]) > 1e-5
-    apart = move(touching.packing, touching.velocity, rule, Undamped(), 1e-2, Stop(0.0, 1500))
+    apart = move(
+        touching.packing, touching.velocity, interaction, Undamped(), 1e-2, Stop(0.0, 1500)
+    )
     assert len(find_contacts(apart.packing).i) == len(apart.packing.history.i) == 0
     gap = np.subtract(*apart.packing.position)
     towards = 0.2 * gap / np.hypot(*gap)
@@ -82,7 +85,7 @@ def test_a_force_is_forgotten_when_a_contact_opens_and_starts_anew(law):
     again, steps = apart.packing, 0
     while not len(find_contacts(again).i):
         before, steps = again, steps + 1
-        again = move(before, back, rule, Undamped(), 1e-2, Stop(0.0, 1)).packing
+        again = move(before, back, interaction, Undamped(), 1e-2, Stop(0.0, 1)).packing
     contacts = find_contacts(again)
     h, overlap = contacts.displacement[0], contacts.overlap[0]
     assert steps > 1
@@ -92,10 +95,10 @@ def test_a_force_is_forgotten_when_a_contact_opens_and_starts_anew(law):
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
 def test_a_motion_goes_on_where_it_stopped(law):
     """Packing and velocity are the whole state but for the force, whose last bit is summed anew."""
-    rule, start = interaction(law), np.zeros((16, 3))
-    whole = move(crowd(82), start, rule, Undamped(), 1e-2, Stop(0.0, 200))
-    half = move(crowd(82), start, rule, Undamped(), 1e-2, Stop(0.0, 100))
-    rest = move(half.packing, half.velocity, rule, Undamped(), 1e-2, Stop(0.0, 100))
+    interaction, start = Interaction.from_law(law), np.zeros((16, 3))
+    whole = move(crowd(82), start, interaction, Undamped(), 1e-2, Stop(0.0, 200))
+    half = move(crowd(82), start, interaction, Undamped(), 1e-2, Stop(0.0, 100))
+    rest = move(half.packing, half.velocity, interaction, Undamped(), 1e-2, Stop(0.0, 100))
     np.testing.assert_allclose(rest.velocity, whole.velocity, atol=1e-11)
     one, other = (find_contacts(m.packing) for m in (whole, rest))
     np.testing.assert_array_equal(other.i, one.i)

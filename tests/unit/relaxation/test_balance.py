@@ -8,8 +8,8 @@ import scipy.linalg
 import scipy.sparse as sparse
 
 from example_packings import LAWS, MINIMAL, crowd, law_name, quenched, reference, with_slip
-from grainmodes.kernels.laws import interaction
-from grainmodes.kernels.permutations import odd
+from grainmodes.kernels.laws import Interaction
+from grainmodes.kernels.permutations import is_odd
 from grainmodes.linalg.factorisation import ZeroPivotError
 from grainmodes.linalg.pinned_factor import PinnedFactor
 from grainmodes.linalg.superlu import SuperLU
@@ -23,9 +23,9 @@ from grainmodes.relaxation.balance import OLDEST, Balance, lost_force
 from grainmodes.relaxation.following import find_balance
 from grainmodes.response.stability import lowest_eigenvalue
 
-B = interaction(ContactLaw("harmonic", "elastic", 1.0))
-HERTZIAN = interaction(ContactLaw("hertz", "elastic", 1.0))
-WEAK = interaction(ContactLaw("harmonic", "elastic", 0.1))
+B = Interaction.from_law(ContactLaw("harmonic", "elastic", 1.0))
+HERTZIAN = Interaction.from_law(ContactLaw("hertz", "elastic", 1.0))
+WEAK = Interaction.from_law(ContactLaw("harmonic", "elastic", 0.1))
 PACKING = "harmonic_n64_phi0.900_seed1"
 
 
@@ -36,21 +36,21 @@ def slipping(seed: int, slip: float, squeezed: float = 0.9) -> Balance:
     return Balance.of(with_slip(shaken, draws, slip), WEAK)
 
 
-def sheared(steps: int, size: float = 1e-4, rule=B, name: str = PACKING) -> Balance:
+def sheared(steps: int, size: float = 1e-4, interaction=B, name: str = PACKING) -> Balance:
     """A balance some steps of strain away from where friction was switched on."""
-    now = find_balance(reference(name)[1], rule, 1e-14)
+    now = find_balance(reference(name)[1], interaction, 1e-14)
     for _ in range(steps):
         strain = now.packing.strain + size
-        now = find_balance(now.packing.sheared(strain), rule, 1e-14, now)
+        now = find_balance(now.packing.sheared(strain), interaction, 1e-14, now)
     return now
 
 
 @pytest.mark.parametrize("law", [ContactLaw("harmonic"), ContactLaw("hertz"), *LAWS], ids=law_name)
 def test_a_balance_is_one_and_its_loose_grains_touch_nothing(law):
-    rule = interaction(law)
-    now = sheared(3, size=1e-6, rule=rule, name=f"{law.normal}_n64_phi0.860_seed2")
+    interaction = Interaction.from_law(law)
+    now = sheared(3, size=1e-6, interaction=interaction, name=f"{law.normal}_n64_phi0.860_seed2")
     contacts = find_contacts(now.packing)
-    assert max(largest(net_force(now.packing, contacts, rule))) < 1e-14
+    assert max(largest(net_force(now.packing, contacts, interaction))) < 1e-14
     loose = rattlers(contacts, now.packing.n, 1 if law.frictional else 2)
     np.testing.assert_array_equal(now.held, ~loose)
     assert not np.any(loose[contacts.i] | loose[contacts.j])
@@ -58,7 +58,10 @@ def test_a_balance_is_one_and_its_loose_grains_touch_nothing(law):
 
 def test_a_loose_grain_pushed_against_the_others_is_let_go():
     """It bears nothing: the others stay where they are, and it touches none of them."""
-    packing, rule = quenched(256, 0.86), interaction(ContactLaw("hertz", "elastic", 1.0))
+    packing, interaction = (
+        quenched(256, 0.86),
+        Interaction.from_law(ContactLaw("hertz", "elastic", 1.0)),
+    )
     loose = np.flatnonzero(rattlers(find_contacts(packing), packing.n, 1))[0]
     apart = packing.position - packing.position[loose]
     apart -= packing.box_length * np.round(apart / packing.box_length)
@@ -69,7 +72,7 @@ def test_a_loose_grain_pushed_against_the_others_is_let_go():
     push[loose] = apart[nearest] / np.hypot(*apart[nearest]) * (gap[nearest] + 1e-4)
     pushed = packing.displaced(push)
     assert loose in np.concatenate([find_contacts(pushed).i, find_contacts(pushed).j])
-    found = find_balance(pushed, rule, 1e-14)
+    found = find_balance(pushed, interaction, 1e-14)
     contacts = find_contacts(found.packing)
     assert loose not in np.concatenate([contacts.i, contacts.j])
     moved = nonaffine_motion(packing, found.packing)
@@ -105,9 +108,9 @@ def test_a_contact_lost_under_load_is_noticed():
     apart = packing.at(0.5 * packing.phi)
     s = np.abs(contacts.displacement).max()
     for law, force in ((LAWS[3], 0.3 * s), (LAWS[0], 0.0), (LAWS[1], 0.0), (LAWS[5], 0.0)):
-        found = lost_force(apart, find_contacts(apart), interaction(law))
+        found = lost_force(apart, find_contacts(apart), Interaction.from_law(law))
         assert found == pytest.approx(force, rel=1e-12, abs=1e-30), law
-    assert lost_force(packing, contacts, interaction(LAWS[3])) == 0.0
+    assert lost_force(packing, contacts, Interaction.from_law(LAWS[3])) == 0.0
 
 
 def negative_eigenvalues(state: Balance) -> int:
@@ -146,7 +149,7 @@ def test_negative_pivots_of_a_lopsided_matrix_are_no_instability():
 def test_a_permutation_is_odd_where_its_matrix_has_determinant_minus_one(size):
     for seed in range(10):
         order = np.random.default_rng(seed).permutation(size)
-        assert odd(order) == (np.linalg.det(np.eye(size)[order]) < 0.0)
+        assert is_odd(order) == (np.linalg.det(np.eye(size)[order]) < 0.0)
 
 
 def test_pivots_are_sought_where_elimination_in_order_fails(monkeypatch):

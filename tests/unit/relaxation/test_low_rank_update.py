@@ -5,7 +5,7 @@ import pytest
 import scipy.linalg
 
 from example_packings import law_name, reference, with_slip
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.balance import Balance
@@ -24,7 +24,7 @@ def shaken(law: ContactLaw, size: float, seed: int = 0, squeezed: float = 0.95) 
     draws, packing = np.random.default_rng(seed), reference(PACKING)[1].at(squeezed)
     if law.frictional:
         packing = with_slip(packing, draws, 0.01)
-    return Balance.of(moved(packing, draws, size), interaction(law))
+    return Balance.of(moved(packing, draws, size), Interaction.from_law(law))
 
 
 def moved(packing: Packing, draws, size: float) -> Packing:

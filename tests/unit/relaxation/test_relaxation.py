@@ -8,7 +8,7 @@ import naive_dynamics as slow
 from example_packings import ELASTIC, LAWS, MINIMAL, crowd, elastic, law_name, reference
 from grainmodes.kernels.damping import Dashpot, Drag, Undamped
 from grainmodes.kernels.dynamics import Stop
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
@@ -133,15 +133,15 @@ def test_newton_is_quadratic_near_a_balance(name, kt):
 
 @pytest.mark.parametrize("kt", [0.0, 0.1])
 def test_newton_never_ends_worse_than_it_began(kt):
-    law, lost = elastic("hertz", kt), 0
+    interaction, lost = elastic("hertz", kt), 0
     for seed in range(12):
         packing = crowd(seed, slip=0.2 if kt else 0.0)
-        relaxed = newton(packing, law, 1e-14, 3)
+        relaxed = newton(packing, interaction, 1e-14, 3)
         lost += not relaxed.converged
-        force = largest(net_force(relaxed.packing, find_contacts(relaxed.packing), law))
+        force = largest(net_force(relaxed.packing, find_contacts(relaxed.packing), interaction))
         assert (relaxed.max_force, relaxed.max_torque) == force
         assert relaxed.converged == (max(force) < 1e-14)
-        assert max(force) <= max(largest(net_force(packing, find_contacts(packing), law)))
+        assert max(force) <= max(largest(net_force(packing, find_contacts(packing), interaction)))
     assert lost > 0
 
 
@@ -155,7 +155,7 @@ def test_newton_gives_up_on_grains_that_touch_nothing():
 def test_springs_slip_where_their_law_does_not_hold_them(law):
     packing = crowd(40, slip=4.0)
     before = find_contacts(packing)
-    after, contacts = slipped(packing, interaction(law))
+    after, contacts = slipped(packing, Interaction.from_law(law))
     expected = before.displacement
     if law.tangential.startswith("sharp_coulomb"):
         limit = naive.threshold(law, before.overlap)
@@ -170,7 +170,7 @@ def test_a_small_motion_carries_the_springs(law):
     packing = crowd(38, strain=0.3, slip=0.4)
     u = np.random.default_rng(1).normal(0.0, 1e-4, (packing.n, 3))
     contacts = find_contacts(packing)
-    moved = moved_by(packing, contacts, interaction(law), u)
+    moved = moved_by(packing, contacts, Interaction.from_law(law), u)
     pairs = naive.all_moved(
         law,
         naive.all_pairs(
@@ -208,7 +208,9 @@ def test_dynamics_are_those_of_the_slow_twin_step_by_step(law, damping):
     now = slow.released(scene, packing.position, np.zeros((packing.n, 3)))
     for _ in range(steps):
         now = slow.verlet_step(scene, now, dt)
-    found = move(packing, np.zeros((packing.n, 3)), interaction(law), fast, dt, Stop(0.0, steps))
+    found = move(
+        packing, np.zeros((packing.n, 3)), Interaction.from_law(law), fast, dt, Stop(0.0, steps)
+    )
     assert found.steps == steps
     np.testing.assert_allclose(found.velocity, now.velocity, atol=1e-9)
     assert np.abs(found.velocity[:, 2]).max() > 1e-4

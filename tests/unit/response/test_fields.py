@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from example_packings import ELASTIC, MINIMAL, SHEARED, elastic, reference, smoothed_coulomb
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
@@ -34,8 +34,8 @@ def with_rattler(packing: Packing) -> Packing:
 @pytest.mark.parametrize("kt", KTS)
 @pytest.mark.parametrize("name", ELASTIC)
 def test_the_sum_over_the_modes_is_the_direct_solve(name, kt):
-    packing, law = reference(name)[1], elastic(name, kt)
-    direct, summed = nonaffine_field(packing, law), mode_sum_field(packing, law)
+    packing, interaction = reference(name)[1], elastic(name, kt)
+    direct, summed = nonaffine_field(packing, interaction), mode_sum_field(packing, interaction)
     size = np.nanmax(np.abs(direct))
     assert_allclose(summed[:, :2], direct[:, :2], rtol=0, atol=1e-10 * size)
     # λ of the rotational band, and with it the spins, is right to 1e-16 / kt.
@@ -46,36 +46,43 @@ def test_the_sum_over_the_modes_is_the_direct_solve(name, kt):
 @pytest.mark.parametrize("kt", KTS)
 @pytest.mark.parametrize("name", ELASTIC)
 def test_the_simulation_is_the_theory(name, kt):
-    packing, law = reference(name)[1], elastic(name, kt)
-    direct, simulated = nonaffine_field(packing, law), simulated_field(packing, law, StepStrain())
+    packing, interaction = reference(name)[1], elastic(name, kt)
+    direct, simulated = (
+        nonaffine_field(packing, interaction),
+        simulated_field(packing, interaction, StepStrain()),
+    )
     assert_allclose(simulated, direct, rtol=0, atol=1e-6 * np.nanmax(np.abs(direct)))
 
 
 def test_the_sum_over_the_modes_has_its_vectors_at_every_size(monkeypatch):
-    packing, law = reference(MINIMAL[0])[1], elastic("hertz", 1e-2)
-    expected = mode_sum_field(packing, law)
+    packing, interaction = reference(MINIMAL[0])[1], elastic("hertz", 1e-2)
+    expected = mode_sum_field(packing, interaction)
     monkeypatch.setattr(full, "DENSE_MODES_UP_TO", 0)
-    assert_array_equal(mode_sum_field(packing, law), expected)
+    assert_array_equal(mode_sum_field(packing, interaction), expected)
 
 
 def test_the_error_of_the_simulation_is_of_second_order():
-    packing, law = reference(HERTZ)[1], elastic("hertz", 1e-4)
-    direct = nonaffine_field(packing, law)
+    packing, interaction = reference(HERTZ)[1], elastic("hertz", 1e-4)
+    direct = nonaffine_field(packing, interaction)
     large, small = (
-        np.abs(simulated_field(packing, law, StepStrain(strain=strain)) - direct).max()
+        np.abs(simulated_field(packing, interaction, StepStrain(strain=strain)) - direct).max()
         for strain in (1e-5, 1e-6)
     )
     assert large / small == pytest.approx(100.0, rel=0.05)
 
 
 def test_the_simulated_field_is_what_positions_say():
-    packing, law, protocol = reference(HERTZ)[1], elastic("hertz", 1e-2), StepStrain(strain=1e-5)
-    forward, backward = (step.packing for step in relaxed_steps(packing, law, protocol))
+    packing, interaction, protocol = (
+        reference(HERTZ)[1],
+        elastic("hertz", 1e-2),
+        StepStrain(strain=1e-5),
+    )
+    forward, backward = (step.packing for step in relaxed_steps(packing, interaction, protocol))
     length = packing.box_length
     moved = (forward.position - backward.position + length / 2) % length - length / 2
     nonaffine = moved / 2e-5
     nonaffine[:, 0] -= packing.position[:, 1]
-    field = simulated_field(packing, law, protocol)
+    field = simulated_field(packing, interaction, protocol)
     # Of each position 1e-15 L is lost, and as γ differs, 1e-5 of what y moved.
     assert_allclose(field[:, :2], nonaffine - nonaffine.mean(axis=0), atol=1e-8)
     assert_allclose(field[:, 2], (forward.rotation - backward.rotation) / 2e-5, rtol=1e-12)
@@ -83,11 +90,11 @@ def test_the_simulated_field_is_what_positions_say():
 
 @pytest.mark.parametrize("kt", [0.0, 1e-2])
 def test_fields_hold_no_translation(kt):
-    packing, law = reference(HERTZ)[1], elastic("hertz", kt)
+    packing, interaction = reference(HERTZ)[1], elastic("hertz", kt)
     for field in (
-        nonaffine_field(packing, law),
-        mode_sum_field(packing, law),
-        simulated_field(packing, law, StepStrain()),
+        nonaffine_field(packing, interaction),
+        mode_sum_field(packing, interaction),
+        simulated_field(packing, interaction, StepStrain()),
     ):
         assert np.abs(field[:, :2]).max() > 1.0
         assert_allclose(field[:, :2].mean(axis=0), 0.0, atol=1e-12)
@@ -104,33 +111,33 @@ def test_the_affine_field_is_the_motion_of_the_box():
 
 
 def test_nothing_turns_without_friction():
-    packing, law = reference(MINIMAL[0])[1], elastic("hertz", 0.0)
-    modes = nearest_modes(packing, law, (1.0,))
-    for field in (nonaffine_field(packing, law), modes.eigenvector[0]):
+    packing, interaction = reference(MINIMAL[0])[1], elastic("hertz", 0.0)
+    modes = nearest_modes(packing, interaction, (1.0,))
+    for field in (nonaffine_field(packing, interaction), modes.eigenvector[0]):
         assert np.isnan(field[:, 2]).all()
         assert np.isfinite(field[:, :2]).all()
 
 
 def test_rattlers_have_no_field_and_change_none():
-    packing, law = reference(MINIMAL[0])[1], elastic("hertz", 1.0)
+    packing, interaction = reference(MINIMAL[0])[1], elastic("hertz", 1.0)
     beside = with_rattler(packing)
     for field in (
         nonaffine_field,
         mode_sum_field,
-        lambda p, law: simulated_field(p, law, StepStrain()),
-        lambda p, law: nearest_modes(p, law, (1.0,)).eigenvector[0],
+        lambda p, interaction: simulated_field(p, interaction, StepStrain()),
+        lambda p, interaction: nearest_modes(p, interaction, (1.0,)).eigenvector[0],
     ):
-        found = field(beside, law)
+        found = field(beside, interaction)
         assert np.isnan(found[0]).all()
-        assert_allclose(found[1:], field(packing, law), atol=1e-8)
+        assert_allclose(found[1:], field(packing, interaction), atol=1e-8)
 
 
 @pytest.mark.parametrize("kt", KTS)
 @pytest.mark.parametrize("name", [MINIMAL[0], HERTZ])
 def test_single_modes_are_those_of_the_dense_spectrum(name, kt):
-    packing, law = reference(name)[1], elastic(name, kt)
+    packing, interaction = reference(name)[1], elastic(name, kt)
     frequencies = (1e-4, 1.3e-2, 0.5, 1.0)
-    found, dense = nearest_modes(packing, law, frequencies), spectrum(packing, law)
+    found, dense = nearest_modes(packing, interaction, frequencies), spectrum(packing, interaction)
     elastic_ones = np.argsort(np.abs(dense.eigenvalue))[2:]
     for mode, frequency in enumerate(frequencies):
         distance = np.abs(dense.eigenvalue[elastic_ones] - frequency**2)
@@ -144,34 +151,34 @@ def test_single_modes_are_those_of_the_dense_spectrum(name, kt):
 
 
 def test_residuals_tell_what_is_no_mode(monkeypatch):
-    packing, law = reference(MINIMAL[0])[1], elastic("hertz", 1.0)
-    exact = nearest_modes(packing, law, (0.5,))
+    packing, interaction = reference(MINIMAL[0])[1], elastic("hertz", 1.0)
+    exact = nearest_modes(packing, interaction, (0.5,))
 
     def shifted(eigenproblem, shift):
         return shift, np.eye(eigenproblem.size)[0]
 
     monkeypatch.setattr("grainmodes.response.fields._nearest", shifted)
-    assert nearest_modes(packing, law, (0.5,)).residual[0] > 1e8 * exact.residual[0]
+    assert nearest_modes(packing, interaction, (0.5,)).residual[0] > 1e8 * exact.residual[0]
 
 
 def test_the_same_modes_come_every_time():
-    packing, law = reference(HERTZ)[1], elastic("hertz", 1e-4)
-    first, second = (nearest_modes(packing, law, (1e-2, 1.0)) for _ in range(2))
+    packing, interaction = reference(HERTZ)[1], elastic("hertz", 1e-4)
+    first, second = (nearest_modes(packing, interaction, (1e-2, 1.0)) for _ in range(2))
     assert_array_equal(first.eigenvector, second.eigenvector)
 
 
 def test_loaded_springs_are_refused():
     data, packing = reference(SHEARED)
-    law = interaction(smoothed_coulomb(data))
-    for field in (mode_sum_field, lambda p, law: nearest_modes(p, law, (1.0,))):
+    interaction = Interaction.from_law(smoothed_coulomb(data))
+    for field in (mode_sum_field, lambda p, interaction: nearest_modes(p, interaction, (1.0,))):
         with pytest.raises(ValueError, match="symmetric"):
-            field(packing, law)
+            field(packing, interaction)
 
 
 def test_a_relaxation_that_stops_short_is_refused():
-    packing, law = reference(MINIMAL[0])[1], elastic("hertz", 1.0)
+    packing, interaction = reference(MINIMAL[0])[1], elastic("hertz", 1.0)
     with pytest.raises(ArithmeticError, match=r"step strain: .* is left after"):
-        simulated_field(packing, law, StepStrain(force_tolerance=1e-30))
+        simulated_field(packing, interaction, StepStrain(force_tolerance=1e-30))
 
 
 LAW = ContactLaw("hertz", "elastic", 1e-2)
@@ -180,7 +187,9 @@ LAW = ContactLaw("hertz", "elastic", 1e-2)
 def packings(*members: Packing, failures=None):
     """A block of packings."""
     attributes = {"stage": "packings", "n": members[0].n, "phi": 0.9, "config": {}}
-    rows = [packed(member, interaction(LAW).normal) | {"converged": True} for member in members]
+    rows = [
+        packed(member, Interaction.from_law(LAW).normal) | {"converged": True} for member in members
+    ]
     return block_of(range(len(members)), rows.__getitem__, failures or {}, attributes)
 
 
@@ -196,12 +205,12 @@ def test_a_block_holds_the_fields_of_its_first_sample():
     assert block.variables["seed"].tolist() == [0]
     assert (block.attributes["stage"], block.attributes["kt"]) == ("fields", 1e-2)
     assert (block.attributes["failures"], block.variables["converged"].tolist()) == ({}, [1])
-    law = interaction(LAW)
+    interaction = Interaction.from_law(LAW)
     fields = {
         "affine_field": affine_field(packing),
-        "nonaffine_field": nonaffine_field(packing, law),
-        "nonaffine_field_mode_sum": mode_sum_field(packing, law),
-        "nonaffine_field_simulated": simulated_field(packing, law, StepStrain()),
+        "nonaffine_field": nonaffine_field(packing, interaction),
+        "nonaffine_field_mode_sum": mode_sum_field(packing, interaction),
+        "nonaffine_field_simulated": simulated_field(packing, interaction, StepStrain()),
     }
     for name, field in fields.items():
         assert_allclose(block.variables[name][0], field, atol=1e-8)

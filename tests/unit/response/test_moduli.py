@@ -17,7 +17,7 @@ from example_packings import (
     reference,
     smoothed_coulomb,
 )
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.linalg.pinned_factor import FloppyError, PinnedFactor
 from grainmodes.packing.forces import net
 from grainmodes.packing.jacobian import jacobian
@@ -45,7 +45,7 @@ def test_reference_moduli(name, kt):
 
 def test_sheared_reference_moduli():
     data, packing = reference(SHEARED)
-    step = rigidity(packing, interaction(smoothed_coulomb(data))).unloaded
+    step = rigidity(packing, Interaction.from_law(smoothed_coulomb(data))).unloaded
     total = step.affine + step.nonaffine
     np.testing.assert_allclose([total[0, 1], total[1, 0]], [data.g_xy, data.g_yx], rtol=1e-8)
 
@@ -55,7 +55,7 @@ def test_sheared_reference_moduli():
 def test_mode_sum_is_the_direct_solve(name, kt):
     packing = reference(name)[1]
     law = ContactLaw(name.split("_")[0], "elastic", kt)
-    found = rigidity(packing, interaction(law))
+    found = rigidity(packing, Interaction.from_law(law))
     pairs = contacts_and_pairs(packing)[1]
     for loaded, moduli in ((False, found.unloaded), (True, found.loaded)):
         affine, nonaffine = naive.moduli(law, pairs, packing.n, packing.box_length, loaded)
@@ -69,7 +69,7 @@ def test_mode_sum_is_the_direct_solve_with_slip(loaded):
     law = smoothed_coulomb(data)
     pairs = contacts_and_pairs(packing)[1]
     twin = naive.moduli(law, pairs, packing.n, packing.box_length, loaded)
-    found = rigidity(packing, interaction(law))
+    found = rigidity(packing, Interaction.from_law(law))
     found = found.loaded if loaded else found.unloaded
     np.testing.assert_allclose((found.affine, found.nonaffine), twin, rtol=1e-8, atol=1e-11)
 
@@ -78,10 +78,10 @@ def test_mode_sum_is_the_direct_solve_with_slip(loaded):
 @pytest.mark.parametrize("kt", MODE_SUM_KTS)
 @pytest.mark.parametrize("name", ELASTIC)
 def test_sum_over_the_modes_of_the_spectrum(name, kt, loaded):
-    packing, law = reference(name)[1], elastic(name, kt)
-    direct = rigidity(packing, law)
+    packing, interaction = reference(name)[1], elastic(name, kt)
+    direct = rigidity(packing, interaction)
     direct = direct.loaded if loaded else direct.unloaded
-    summed = mode_sum(packing, law, spectrum(packing, law), loaded=loaded)
+    summed = mode_sum(packing, interaction, spectrum(packing, interaction), loaded=loaded)
     np.testing.assert_array_equal(summed.affine, direct.affine)
     np.testing.assert_allclose(summed.nonaffine, direct.nonaffine, rtol=1e-8, atol=1e-11)
     # The eigenvalues of the rotational band, and with them its spins, are right to 1e-16 / kt.
@@ -103,11 +103,11 @@ def test_parts_add_up_and_are_those_of_sigma_xy():
 @pytest.mark.parametrize("kt", [0.0, 1e-4, 1.0])
 def test_displacement_solves_the_balance_and_does_not_drift(kt):
     packing = reference(ELASTIC[3])[1]
-    law, contacts = elastic("hertz", kt), find_contacts(packing)
-    u = rigidity(packing, law).loaded.displacement
+    interaction, contacts = elastic("hertz", kt), find_contacts(packing)
+    u = rigidity(packing, interaction).loaded.displacement
     assert u.shape == (packing.n, 3 if kt else 2)
     np.testing.assert_allclose(u[:, :2].mean(axis=0), 0.0, atol=1e-14)
-    matrix = jacobian(packing, contacts, law)
+    matrix = jacobian(packing, contacts, interaction)
     rate = -matrix @ u.ravel()
     sheared = affine_displacement(contacts, u.shape[1], True)
     pairs = contacts_and_pairs(packing)[1]
@@ -138,8 +138,8 @@ def test_rattlers_carry_nothing():
     hole = free_place(packing)
     position = np.vstack([packing.position, hole])
     crowded = Packing.from_positions(position, np.append(packing.diameter, 0.1), packing.box_length)
-    law = elastic("hertz", 0.1)
-    alone, beside = rigidity(packing, law), rigidity(crowded, law)
+    interaction = elastic("hertz", 0.1)
+    alone, beside = rigidity(packing, interaction), rigidity(crowded, interaction)
     assert beside.unloaded.g == pytest.approx(alone.unloaded.g, rel=1e-11)
     assert beside.unloaded.displacement.shape == alone.unloaded.displacement.shape
 
@@ -178,7 +178,7 @@ def test_a_packing_of_rattlers_is_refused():
 def test_factor_solves_general_jacobians(law):
     packing = keeping(law, reference(SHEARED)[1])
     contacts = find_contacts(packing)
-    matrix = jacobian(packing, contacts, interaction(law))
+    matrix = jacobian(packing, contacts, Interaction.from_law(law))
     wanted = np.random.default_rng(1).normal(size=(packing.n, 3))
     wanted[:, :2] -= wanted[:, :2].mean(axis=0)
     u = PinnedFactor(matrix, symmetric=False).solve(wanted)
@@ -197,24 +197,24 @@ def test_relative_and_net_are_each_others_transpose():
 
 def test_a_sum_over_modes_that_are_not_known_is_refused():
     """Windows give modes below the lowest safe edge an eigenvalue 0, as at k_T/k_N = 1e-15."""
-    packing, law = reference(MINIMAL[0])[1], elastic("hertz", 1e-15)
-    by_mode = ModeRigidity(packing, law)
+    packing, interaction = reference(MINIMAL[0])[1], elastic("hertz", 1e-15)
+    by_mode = ModeRigidity(packing, interaction)
     choices = SpectrumChoices("slicing")
-    found = spectrum(packing, law, forces=by_mode.forces, choices=choices)
+    found = spectrum(packing, interaction, forces=by_mode.forces, choices=choices)
     with pytest.raises(ArithmeticError, match="below the lowest safe edge"):
         by_mode.contributions(found)
 
 
 @pytest.mark.parametrize("kt", [1e-8, 1.0])
 def test_windows_and_dense_modes_give_the_same_sum(kt):
-    packing, law = reference(ELASTIC[3])[1], elastic("hertz", kt)
-    by_mode = ModeRigidity(packing, law)
+    packing, interaction = reference(ELASTIC[3])[1], elastic("hertz", kt)
+    by_mode = ModeRigidity(packing, interaction)
     sums = [
         by_mode.contributions(
-            spectrum(packing, law, forces=by_mode.forces, choices=SpectrumChoices(method))
+            spectrum(packing, interaction, forces=by_mode.forces, choices=SpectrumChoices(method))
         ).sum()
         for method in ("dense", "slicing")
     ]
     assert sums[1] == pytest.approx(sums[0], rel=1e-9)
-    exact = rigidity(packing, law).unloaded
+    exact = rigidity(packing, interaction).unloaded
     assert by_mode.g_affine + sums[1] == pytest.approx(exact.g, rel=1e-9)

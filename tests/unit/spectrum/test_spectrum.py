@@ -14,7 +14,7 @@ from example_packings import (
     reference,
     smoothed_coulomb,
 )
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
@@ -46,7 +46,7 @@ def isolated(values: np.ndarray) -> np.ndarray:
 
 def test_sheared_reference_eigenvalues():
     data, packing = reference(SHEARED)
-    matrix = jacobian(packing, find_contacts(packing), interaction(smoothed_coulomb(data)))
+    matrix = jacobian(packing, find_contacts(packing), Interaction.from_law(smoothed_coulomb(data)))
     inverse_inertia = np.tile([1.0, 1.0, 2.0], packing.n)
     found = np.linalg.eigvals(inverse_inertia[:, None] * matrix.toarray())
     real, imag = (data[f"dynamical_eigenvalue_{part}"].values for part in ("real", "imag"))
@@ -60,9 +60,9 @@ def sorted_pairs(values: np.ndarray) -> np.ndarray:
 
 def test_slip_makes_a_general_spectrum():
     data, packing = reference(SHEARED)
-    law = interaction(smoothed_coulomb(data))
-    found, alone = spectrum(packing, law), spectrum(packing, law, modes=False)
-    matrix = jacobian(packing, find_contacts(packing), law).toarray()
+    interaction = Interaction.from_law(smoothed_coulomb(data))
+    found, alone = spectrum(packing, interaction), spectrum(packing, interaction, modes=False)
+    matrix = jacobian(packing, find_contacts(packing), interaction).toarray()
     assert found.residual < 1e-13
     np.testing.assert_allclose(matrix @ found.modes, found.modes * found.eigenvalue, atol=1e-13)
     np.testing.assert_allclose(
@@ -76,7 +76,7 @@ def test_slip_makes_a_general_spectrum():
 @pytest.mark.parametrize("name", MINIMAL)
 def test_every_mode_by_a_directional_difference_of_the_slow_forces(name, kt):
     packing, law = reference(name)[1], ContactLaw(name.split("_")[0], "elastic", kt)
-    found = spectrum(packing, interaction(law))
+    found = spectrum(packing, Interaction.from_law(law))
     pairs = contacts_and_pairs(packing)[1]
     for value, mode in zip(found.eigenvalue, found.modes.T, strict=True):
         u = np.zeros((packing.n, 3))
@@ -102,8 +102,8 @@ def test_modes_are_orthonormal_and_fractions_are_theirs(kt):
 
 
 def test_eigenvalues_alone_are_the_same_and_nothing_else():
-    packing, law = reference(MINIMAL[0])[1], elastic("hertz", 0.1)
-    alone, full = spectrum(packing, law, modes=False), spectrum(packing, law)
+    packing, interaction = reference(MINIMAL[0])[1], elastic("hertz", 0.1)
+    alone, full = spectrum(packing, interaction, modes=False), spectrum(packing, interaction)
     np.testing.assert_allclose(alone.eigenvalue, full.eigenvalue, atol=1e-14)
     nothing = (alone.psi_rotational, alone.participation_ratio, alone.residual, alone.modes)
     assert nothing == (None,) * 4
@@ -112,12 +112,12 @@ def test_eigenvalues_alone_are_the_same_and_nothing_else():
 def test_rattlers_are_left_out_unless_asked_for():
     position = [[1.0, 1.0], [1.95, 1.0], [1.475, 1.8], [5.0, 5.0], [5.0, 2.0]]
     packing = Packing.from_positions(position, np.ones(5), 8.0)
-    law = elastic("hertz", 0.5)
-    assert len(spectrum(packing, law, threshold=1).eigenvalue) == 9
-    kept = spectrum(packing, law, threshold=1, keep_rattlers=True)
+    interaction = elastic("hertz", 0.5)
+    assert len(spectrum(packing, interaction, threshold=1).eigenvalue) == 9
+    kept = spectrum(packing, interaction, threshold=1, keep_rattlers=True)
     assert len(kept.eigenvalue) == 15
     assert np.sum(kept.eigenvalue == 0.0) == 6
-    assert len(spectrum(packing, law, threshold=2).eigenvalue) == 0
+    assert len(spectrum(packing, interaction, threshold=2).eigenvalue) == 0
 
 
 def test_participation_of_one_grain_and_of_all():

@@ -54,10 +54,11 @@ def loose(packing: Packing) -> Packing:
 @pytest.mark.parametrize("name", ELASTIC)
 def test_a_forward_step_gives_the_rigidity_of_theory_but_for_its_slope(name):
     """g(Δγ) = g + g' Δγ/2, with g' from steps to both sides."""
-    packing, law = reference(name)[1], elastic(name, KT)
-    g = rigidity(packing, law).unloaded.g
+    packing, interaction = reference(name)[1], elastic(name, KT)
+    g = rigidity(packing, interaction).unloaded.g
     small, ahead, behind = (
-        forward_rigidity(packing, law, StepStrain(strain=strain)) for strain in (1e-6, 1e-5, -1e-5)
+        forward_rigidity(packing, interaction, StepStrain(strain=strain))
+        for strain in (1e-6, 1e-5, -1e-5)
     )
     half_slope = (ahead - behind) / 2e-5
     assert small - g == pytest.approx(half_slope * 1e-6, rel=0.02, abs=5e-9 * g)
@@ -73,26 +74,26 @@ def test_a_forward_step_that_ends_without_balance_says_so():
 def test_translational_modes_give_the_rigidity_of_weak_friction(name):
     packing = reference(name)[1]
     for kt, accuracy in ((0.0, 1e-9), (1e-8, 1e-6), (1e-4, 1e-2)):
-        law = elastic(name, kt)
-        found = claim_diagnostics.translational_rigidity(packing, law, 2)
-        assert found == pytest.approx(rigidity(packing, law).unloaded.g, rel=accuracy)
+        interaction = elastic(name, kt)
+        found = claim_diagnostics.translational_rigidity(packing, interaction, 2)
+        assert found == pytest.approx(rigidity(packing, interaction).unloaded.g, rel=accuracy)
     strong = elastic(name, 1.0)
     g = rigidity(packing, strong).unloaded.g
     assert abs(claim_diagnostics.translational_rigidity(packing, strong, 2) / g - 1) > 1e-2
 
 
 def test_two_halves_of_the_modes_add_up():
-    packing, law = reference(SMALL)[1], elastic(SMALL, KT)
-    found = spectrum(packing, law)
+    packing, interaction = reference(SMALL)[1], elastic(SMALL, KT)
+    found = spectrum(packing, interaction)
     half = found.psi_rotational < 0.5
-    by_mode = ModeRigidity(packing, law)
-    shares = by_mode.contributions(spectrum(packing, law, forces=by_mode.forces))
-    whole = mode_sum(packing, law, found)
+    by_mode = ModeRigidity(packing, interaction)
+    shares = by_mode.contributions(spectrum(packing, interaction, forces=by_mode.forces))
+    whole = mode_sum(packing, interaction, found)
     assert 0 < half.sum() < len(half)
     assert shares.sum() == pytest.approx(whole.g_nonaffine, rel=1e-12)
     assert by_mode.g_affine == pytest.approx(whole.g_affine, rel=1e-14)
     translational = by_mode.g_affine + shares[half].sum()
-    assert claim_diagnostics.translational_rigidity(packing, law, 2) == pytest.approx(
+    assert claim_diagnostics.translational_rigidity(packing, interaction, 2) == pytest.approx(
         translational, rel=1e-12
     )
 
@@ -101,11 +102,11 @@ def test_two_halves_of_the_modes_add_up():
 @pytest.mark.parametrize("kt", [1e-8, 1.0])
 def test_a_step_of_velocity_verlet_is_as_right_as_paper_a_says(name, kt):
     """Second order in q and first in q̇; second in both where no force depends on velocity."""
-    packing, law = reference(name)[1], elastic(name, kt)
-    orders = step_orders(packing, law, Dashpot(1.0))
+    packing, interaction = reference(name)[1], elastic(name, kt)
+    orders = step_orders(packing, interaction, Dashpot(1.0))
     assert orders.position == pytest.approx(2.0, abs=0.02)
     assert orders.velocity == pytest.approx(1.0, abs=0.02)
-    assert step_orders(packing, law, Undamped()).velocity == pytest.approx(2.0, abs=0.02)
+    assert step_orders(packing, interaction, Undamped()).velocity == pytest.approx(2.0, abs=0.02)
 
 
 def test_a_loosened_packing_touches_in_one_place():
@@ -117,23 +118,25 @@ def test_a_loosened_packing_touches_in_one_place():
 
 @pytest.mark.parametrize("name", [SMALL, HERTZ])
 def test_compression_with_friction_loads_springs_and_makes_complex_pairs(name):
-    packing, law = reference(name)[1], elastic(name, KT)
-    found = frictional_compression(packing, law, 1e-14)
+    packing, interaction = reference(name)[1], elastic(name, KT)
+    found = frictional_compression(packing, interaction, 1e-14)
     assert found.jammed
     assert np.abs(find_contacts(found.packing).displacement).max() > 1e-4
     if name == HERTZ:
-        assert complex_pairs(found.packing, law) > 0
+        assert complex_pairs(found.packing, interaction) > 0
     unsprung = replace(found.packing, history=None)
-    assert complex_pairs(unsprung, law) == complex_pairs(packing, law) == 0
+    assert complex_pairs(unsprung, interaction) == complex_pairs(packing, interaction) == 0
 
 
 def test_pairs_are_those_of_the_matrix_over_the_masses():
-    packing, law = crowd(72, slip=0.8), elastic("hertz", 1.0)
+    packing, interaction = crowd(72, slip=0.8), elastic("hertz", 1.0)
     mass = np.repeat(packing.mass, 3) * np.tile([1.0, 1.0, 0.5], packing.n)
-    matrix = jacobian(packing, find_contacts(packing), law).toarray()
+    matrix = jacobian(packing, find_contacts(packing), interaction).toarray()
     values = np.linalg.eigvals(np.diag(1 / mass) @ matrix)
-    assert complex_pairs(packing, law) == np.count_nonzero(values.imag > 1e-9) > 0
-    assert complex_pairs(packing, law) != np.count_nonzero(np.linalg.eigvals(matrix).imag > 1e-9)
+    assert complex_pairs(packing, interaction) == np.count_nonzero(values.imag > 1e-9) > 0
+    assert complex_pairs(packing, interaction) != np.count_nonzero(
+        np.linalg.eigvals(matrix).imag > 1e-9
+    )
 
 
 def test_a_state_that_bears_nothing_is_not_jammed():

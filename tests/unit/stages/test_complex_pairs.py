@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from example_packings import quenched
 from grainmodes.dataset.files import Block, write_block
-from grainmodes.kernels.laws import Hertz, interaction
+from grainmodes.kernels.laws import Hertz, Interaction
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.jacobian import jacobian
@@ -118,13 +118,13 @@ def test_the_state_that_grows_fastest_is_whole(packing, found):
         strain=float(values["unstable_strain"]),
         history=History.of(*(values[f"unstable_{name}"][held] for name in names)),
     )
-    rule = interaction(LAW)
+    interaction = Interaction.from_law(LAW)
     contacts = find_contacts(state)
-    assert max(largest(net_force(state, contacts, rule))) < 5e-14
+    assert max(largest(net_force(state, contacts, interaction))) < 5e-14
     q = (values["unstable_mode_real"] + 1j * values["unstable_mode_imag"]).ravel()
     value = values["unstable_eigenvalue_real"] + 1j * values["unstable_eigenvalue_imag"]
     mass = generalized_mass(state.mass).ravel()
-    assert_allclose(jacobian(state, contacts, rule) @ q / mass, value * q, atol=1e-11)
+    assert_allclose(jacobian(state, contacts, interaction) @ q / mass, value * q, atol=1e-11)
     assert np.linalg.norm(q) == pytest.approx(1.0)
     growth = np.sqrt(value).imag
     assert growth == pytest.approx(np.nanmax(values["pair_growth"]), abs=1e-5)

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from example_packings import law_name, reference
 from grainmodes.dataset.files import Block, write_block
-from grainmodes.kernels.laws import Harmonic, interaction
+from grainmodes.kernels.laws import Harmonic, Interaction
 from grainmodes.linalg.pinned_factor import PinnedFactor
 from grainmodes.packing.contacts import Contacts
 from grainmodes.parameters.law import ContactLaw
@@ -50,7 +50,7 @@ def packing_of(law: ContactLaw):
 @cache
 def found(law: ContactLaw) -> list[Bracket]:
     """The first event at every Δγ_Th."""
-    return brackets(packing_of(law), interaction(law), SMALL_STRAIN)
+    return brackets(packing_of(law), Interaction.from_law(law), SMALL_STRAIN)
 
 
 def closest(law: ContactLaw) -> Bracket:
@@ -80,7 +80,7 @@ def test_brackets_without_friction_lie_within_each_other():
 @each_law
 def test_every_bracket_is_that_of_a_walk_of_its_own(law):
     choices = closer(SMALL_STRAIN)[3]
-    alone = bracketed(Walk.start(packing_of(law), interaction(law), choices))
+    alone = bracketed(Walk.start(packing_of(law), Interaction.from_law(law), choices))
     shared = found(law)[3]
     for side in ("before", "after"):
         one, other = getattr(alone, side), getattr(shared, side)
@@ -130,7 +130,7 @@ def test_harmonic_grains_show_no_precursor(law):
 def test_a_fold_is_seen_as_one():
     """With Hertz's law and friction λ vanishes as (γ_c − γ)^(1/2), and g grows as its inverse."""
     law, choices = ContactLaw("hertz", "elastic", 1.0), Shear(0.11, 1e-3, 1e-7)
-    walk = Walk.start(packing_of(law), interaction(law), choices)
+    walk = Walk.start(packing_of(law), Interaction.from_law(law), choices)
     before, after = next(pair for pair in steps(walk) if walk.events)
     fold = Bracket(choices.min_step, before, walk.curve, walk.events[0], after)
     towards = [n.state for n in states_around(fold, choices) if -1e-4 < n.distance < -2e-7]
@@ -209,7 +209,7 @@ def test_a_contact_that_does_not_turn_has_none():
 
 
 def errors(step: float) -> list:
-    walk = Walk.start(packing_of(B), interaction(B), Shear(1e-3, step, step))
+    walk = Walk.start(packing_of(B), Interaction.from_law(B), Shear(1e-3, step, step))
     path = TangentialPath(walk.now.balance)
     return [path.follow(now.balance) for _, now in steps(walk)]
 

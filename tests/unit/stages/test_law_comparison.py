@@ -8,7 +8,7 @@ import pytest
 from example_packings import LAWS, SHEARED, crowd, keeping, law_name, reference, smoothed_coulomb
 from grainmodes.dataset import VARIABLES
 from grainmodes.dataset.files import Block
-from grainmodes.kernels.laws import interaction
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import forces_on_i, sliding
 from grainmodes.packing.jacobian import jacobian, stiffness_of
 from grainmodes.packing.mass_weighted import generalized_mass
@@ -38,16 +38,16 @@ BRIEF = Shear(strain=2e-3, step=1e-4)
 
 def half_slipped(law: ContactLaw):
     """Contacts some of which the law has cut, and the packing."""
-    return slipped(keeping(law, crowd(91, slip=2.5)), interaction(law))
+    return slipped(keeping(law, crowd(91, slip=2.5)), Interaction.from_law(law))
 
 
 @pytest.mark.parametrize("law", SHARP, ids=law_name)
 def test_only_springs_at_their_threshold_have_two_sides(law):
-    rule, (_, contacts) = interaction(law), half_slipped(law)
-    at = slipping_contacts(contacts, rule)
+    interaction, (_, contacts) = Interaction.from_law(law), half_slipped(law)
+    at = slipping_contacts(contacts, interaction)
     assert 0 < at.sum() < len(at)
     slips, sticks = (
-        stiffness_of(beside_threshold(contacts, side), rule) for side in (SLIPPING, STICKING)
+        stiffness_of(beside_threshold(contacts, side), interaction) for side in (SLIPPING, STICKING)
     )
     apart = np.abs(slips - sticks).max(axis=(1, 2))
     assert apart[~at].max() < 1e-7 < 1e-2 < apart[at].min()
@@ -57,67 +57,67 @@ def test_only_springs_at_their_threshold_have_two_sides(law):
 
 @pytest.mark.parametrize("law", SHARP, ids=law_name)
 def test_contacts_slide_whose_tangential_force_is_coulombs(law):
-    rule, (_, contacts) = interaction(law), half_slipped(law)
-    force = forces_on_i(contacts, rule)[:, :2]
+    interaction, (_, contacts) = Interaction.from_law(law), half_slipped(law)
+    force = forces_on_i(contacts, interaction)[:, :2]
     normal, tangential = (
         np.abs(np.einsum("ca,ca->c", force, axis)) for axis in (contacts.normal, contacts.tangent)
     )
     at = tangential >= (1.0 - 1e-9) * law.friction_coefficient * normal
     assert 0 < at.sum() < len(at)
-    np.testing.assert_array_equal(sliding(contacts, rule), at)
+    np.testing.assert_array_equal(sliding(contacts, interaction), at)
 
 
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
 def test_forces_are_the_same_on_both_sides(law):
-    rule, (_, contacts) = interaction(law), half_slipped(law)
-    whole = forces_on_i(contacts, rule)
+    interaction, (_, contacts) = Interaction.from_law(law), half_slipped(law)
+    whole = forces_on_i(contacts, interaction)
     for side in (SLIPPING, STICKING):
-        beside = forces_on_i(beside_threshold(contacts, side), rule)
+        beside = forces_on_i(beside_threshold(contacts, side), interaction)
         np.testing.assert_allclose(beside, whole, atol=1e-8)
 
 
 def unstable():
     """The sheared state of the independent code, which has pairs."""
     data, packing = reference(SHEARED)
-    return packing, interaction(smoothed_coulomb(data))
+    return packing, Interaction.from_law(smoothed_coulomb(data))
 
 
 def test_pairs_are_those_of_the_whole_matrix():
-    packing, rule = unstable()
-    found = oscillation(packing, find_contacts(packing), rule, SLIPPING)
-    assert found.pairs == complex_pairs(packing, rule) > 0
+    packing, interaction = unstable()
+    found = oscillation(packing, find_contacts(packing), interaction, SLIPPING)
+    assert found.pairs == complex_pairs(packing, interaction) > 0
     root = complex(found.frequency, found.rate)
     assert root**2 == pytest.approx(found.eigenvalue, rel=1e-12)
 
 
 def test_the_growing_mode_is_an_eigenvector():
-    packing, rule = unstable()
+    packing, interaction = unstable()
     contacts = find_contacts(packing)
-    value = oscillation(packing, contacts, rule, SLIPPING).eigenvalue
-    u = growing_mode(packing, contacts, rule, SLIPPING)
-    off = (jacobian(packing, contacts, rule) @ u.ravel()).reshape(u.shape)
+    value = oscillation(packing, contacts, interaction, SLIPPING).eigenvalue
+    u = growing_mode(packing, contacts, interaction, SLIPPING)
+    off = (jacobian(packing, contacts, interaction) @ u.ravel()).reshape(u.shape)
     off = off / generalized_mass(packing.mass) - value * u
     assert np.abs(u).max() == pytest.approx(1.0)
     assert np.abs(off).max() < 1e-7
 
 
 def test_without_history_nothing_oscillates():
-    packing, rule = unstable()
+    packing, interaction = unstable()
     still = replace(packing, history=None)
-    found = oscillation(still, find_contacts(still), rule, SLIPPING)
+    found = oscillation(still, find_contacts(still), interaction, SLIPPING)
     assert (found.pairs, found.rate, found.frequency) == (0, 0.0, 0.0)
 
 
 def test_a_released_state_grows_as_linear_theory_says():
-    packing, rule = unstable()
-    found = oscillation(packing, find_contacts(packing), rule, SLIPPING)
-    assert growth_rate(packing, rule, found) == pytest.approx(found.rate, rel=2e-3)
+    packing, interaction = unstable()
+    found = oscillation(packing, find_contacts(packing), interaction, SLIPPING)
+    assert growth_rate(packing, interaction, found) == pytest.approx(found.rate, rel=2e-3)
 
 
 def test_states_are_spread_over_the_way(monkeypatch):
     monkeypatch.setattr(comparison, "STATES", 4)
     packing = reference("harmonic_n16_phi0.900_seed1")[1]
-    seen = variant(packing, interaction(C8), BRIEF).seen
+    seen = variant(packing, Interaction.from_law(C8), BRIEF).seen
     np.testing.assert_allclose([state.strain for state in seen], [5e-4, 1e-3, 1.5e-3, 2e-3])
 
 
@@ -128,14 +128,14 @@ def test_a_way_that_ends_keeps_what_was_seen(monkeypatch):
         return balance, False
 
     monkeypatch.setattr(comparison, "step_to", step_to)
-    found = variant(reference("harmonic_n16_phi0.900_seed1")[1], interaction(C8), BRIEF)
+    found = variant(reference("harmonic_n16_phi0.900_seed1")[1], Interaction.from_law(C8), BRIEF)
     assert (len(found.seen), found.ending) == (10, "lost")
 
 
 def block_of(name: str) -> Block:
     """A block of one packing."""
     packing = reference(name)[1]
-    row = packed(packing, interaction(C8).normal) | {"converged": 1, "seed": 0}
+    row = packed(packing, Interaction.from_law(C8).normal) | {"converged": 1, "seed": 0}
     variables = {key: np.asarray(value)[None] for key, value in row.items()}
     return Block(variables, {"n": packing.n, "phi": 0.9})
 

@@ -32,10 +32,10 @@ def block():
 
 
 def test_the_state_of_the_pairs_is_taken_up_exactly():
-    start, _, rule = state()
+    start, _, interaction = state()
     found = unstable_of(complex_pairs_block(), 0)
-    assert max(largest(net_force(found.packing, find_contacts(found.packing), rule))) < 1e-14
-    assert found.residual(rule) < 1e-12
+    assert max(largest(net_force(found.packing, find_contacts(found.packing), interaction))) < 1e-14
+    assert found.residual(interaction) < 1e-12
     np.testing.assert_array_equal(found.packing.fraction, start.packing.fraction)
     assert found.eigenvalue == start.eigenvalue
 
@@ -137,9 +137,9 @@ def test_a_killed_release_goes_on_and_ends_with_the_same_bytes(tmp_path):
 
 
 def test_a_line_says_how_far_a_run_is(tmp_path, capsys):
-    start, law, rule = state()
+    start, law, interaction = state()
     keeping = Keeping(tmp_path / "x.nc", (law, CHOICES), -1.0, of_run)
-    run = keeping.kept("seed-0-0") or Run.begin(start, rule, CHOICES)
+    run = keeping.kept("seed-0-0") or Run.begin(start, interaction, CHOICES)
     run.advance()
     keeping.watch("seed-0-0", run)
     pattern = r"seed-0-0: 1 of \d+ steps, M = .*, \d+ steps per second, \d+ min left\n"

@@ -15,7 +15,7 @@ from example_packings import reference
 from grainmodes.cli import main
 from grainmodes.dataset.files import Block, read_block, write_block
 from grainmodes.ensemble.point import merge_blocks
-from grainmodes.kernels.laws import Harmonic, interaction
+from grainmodes.kernels.laws import Harmonic, Interaction
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.state import Packing, find_contacts
@@ -79,8 +79,8 @@ def test_an_event_can_be_taken_up_from_either_side(sheared):
             float(values[f"event_strain_{side}"][0, 0]),
             history=history,
         )
-        rule = interaction(LAW)
-        assert max(largest(net_force(state, find_contacts(state), rule))) < 1e-14
+        interaction = Interaction.from_law(LAW)
+        assert max(largest(net_force(state, find_contacts(state), interaction))) < 1e-14
 
 
 def test_a_packing_that_is_not_jammed_has_no_curve(sheared):
@@ -136,7 +136,7 @@ def test_a_killed_shear_goes_on_and_ends_with_the_same_bytes(tmp_path):
 
 
 def test_a_walk_of_other_choices_or_a_broken_file_is_passed_over(tmp_path):
-    walk = Walk.start(reference(SMALL)[1], interaction(LAW), CHOICES)
+    walk = Walk.start(reference(SMALL)[1], Interaction.from_law(LAW), CHOICES)
     keeping = Keeping(tmp_path / "x.nc", (LAW, CHOICES), seconds=-1.0)
     keeping.kept("seed-0")
     keeping.watch("seed-0", walk)
@@ -154,14 +154,16 @@ def test_a_walk_from_another_packing_is_passed_over(tmp_path):
     assert marks[0] == marks[1] != marks[2]
     keeping = Keeping(tmp_path / "x.nc", (LAW, CHOICES, marks[0]), seconds=-1.0)
     keeping.kept("seed-0")
-    keeping.watch("seed-0", Walk.start(reference(SMALL)[1], interaction(LAW), CHOICES))
+    keeping.watch("seed-0", Walk.start(reference(SMALL)[1], Interaction.from_law(LAW), CHOICES))
     again = [Keeping(tmp_path / "x.nc", (LAW, CHOICES, mark), 1.0).kept("seed-0") for mark in marks]
     assert [walk is None for walk in again] == [False, False, True]
 
 
 def test_a_line_says_how_far_a_walk_is(tmp_path, capsys):
     keeping = Keeping(tmp_path / "x.nc", (LAW, CHOICES), seconds=-1.0)
-    walk = keeping.kept("seed-3") or Walk.start(reference(SMALL)[1], interaction(LAW), CHOICES)
+    walk = keeping.kept("seed-3") or Walk.start(
+        reference(SMALL)[1], Interaction.from_law(LAW), CHOICES
+    )
     while walk.now.strain < 0.005 or not walk.restartable:
         walk.advance()
     keeping.watch("seed-3", walk)

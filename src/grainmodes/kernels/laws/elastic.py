@@ -1,4 +1,4 @@
-"""Elastic: f_T = −k s, k = k_T w(ξ), energy k s²/2: A (8), sign of (D2) mended; B."""
+"""Elastic: f_T = −k s, k = k_T w(ξ), energy k s²/2: A (8), sign of (D2) corrected; B."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ class Elastic(NamedTuple):
 
 
 @implements(tangential_response, Elastic)
-def _force(tangential, normal, overlap, displacement):
+def _force(tangential, normal, overlap, spring_state):
     scale, slope = tangential_scale(normal, overlap)
-    k, s = tangential.stiffness, displacement
+    k, s = tangential.stiffness, spring_state
     return -k * scale * s, -k * scale, -k * slope * s
 
 
 @implements(tangential_energy, Elastic)
-def _energy(tangential, normal, overlap, displacement):
+def _energy(tangential, normal, overlap, spring_state):
     scale, _ = tangential_scale(normal, overlap)
-    return 0.5 * tangential.stiffness * scale * displacement * displacement
+    return 0.5 * tangential.stiffness * scale * spring_state * spring_state

@@ -1,6 +1,6 @@
 """Elastic force: f_T = −h, dh = k ds, energy h²/(2k); `mindlin/force` of LAMMPS.
 
-The spring remembers a force, so that a later change of the overlap leaves it alone: ∂f_T/∂ξ = 0. On
+The spring remembers a force, which a later change of the overlap does not change: ∂f_T/∂ξ = 0. On
 harmonic contacts, where k is constant, this is the elastic law again.
 """
 
@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from grainmodes.kernels.compiler import implements
 from grainmodes.kernels.laws.responses import (
-    advanced,
+    advance_spring,
     tangential_energy,
     tangential_response,
     tangential_scale,
@@ -24,18 +24,18 @@ class ElasticForce(NamedTuple):
 
 
 @implements(tangential_response, ElasticForce)
-def _force(tangential, normal, overlap, displacement):
+def _force(tangential, normal, overlap, spring_state):
     scale, _ = tangential_scale(normal, overlap)
-    return -displacement, -tangential.stiffness * scale, 0.0
+    return -spring_state, -tangential.stiffness * scale, 0.0
 
 
-@implements(advanced, ElasticForce)
-def _advanced(tangential, normal, overlap, displacement, slide):
+@implements(advance_spring, ElasticForce)
+def _advance(tangential, normal, overlap, spring_state, slide):
     scale, _ = tangential_scale(normal, overlap)
-    return displacement + tangential.stiffness * scale * slide
+    return spring_state + tangential.stiffness * scale * slide
 
 
 @implements(tangential_energy, ElasticForce)
-def _energy(tangential, normal, overlap, displacement):
+def _energy(tangential, normal, overlap, spring_state):
     scale, _ = tangential_scale(normal, overlap)
-    return 0.5 * displacement * displacement / (tangential.stiffness * scale)
+    return 0.5 * spring_state * spring_state / (tangential.stiffness * scale)

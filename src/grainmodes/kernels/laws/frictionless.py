@@ -11,7 +11,12 @@ from grainmodes.kernels.laws.responses import tangential_energy
 class Frictionless(NamedTuple):
     """No tangential force: rotation, torque and history do not exist."""
 
+    @property
+    def stiffness(self) -> float:
+        """k_T = 0."""
+        return 0.0
+
 
 @implements(tangential_energy, Frictionless)
-def _energy(tangential, normal, overlap, displacement):
+def _energy(tangential, normal, overlap, spring_state):
     return 0.0

@@ -1,4 +1,4 @@
-"""Sharp Coulomb: f_T = −k s up to |s| = s*, where k s* = μ f_N; there the rest slips: C, Sec. VIII.
+"""Sharp Coulomb: f_T = −k s up to |s| = s*, where k s* = μ f_N and the contact slips: C, Sec. VIII.
 
 At s* the force is −μ f_N sign(s). Energy k s²/2.
 """
@@ -10,13 +10,13 @@ from typing import NamedTuple
 
 from grainmodes.kernels.compiler import implements
 from grainmodes.kernels.laws.responses import (
-    AT_THRESHOLD,
-    admissible,
+    SLIDING_FRACTION,
+    clip_to_coulomb,
     normal_response,
+    slip_threshold,
     tangential_energy,
     tangential_response,
     tangential_scale,
-    threshold,
 )
 
 
@@ -28,30 +28,30 @@ class SharpCoulomb(NamedTuple):
 
 
 @implements(tangential_response, SharpCoulomb)
-def _force(tangential, normal, overlap, displacement):
+def _force(tangential, normal, overlap, spring_state):
     force, stiffness = normal_response(normal, overlap)
     scale, slope = tangential_scale(normal, overlap)
-    k, s, mu = tangential.stiffness, displacement, tangential.friction_coefficient
-    if k * scale * abs(s) >= AT_THRESHOLD * mu * force:
+    k, s, mu = tangential.stiffness, spring_state, tangential.friction_coefficient
+    if k * scale * abs(s) >= SLIDING_FRACTION * mu * force:
         sign = math.copysign(1.0, s)
         return -mu * force * sign, 0.0, -mu * stiffness * sign
     return -k * scale * s, -k * scale, -k * slope * s
 
 
-@implements(threshold, SharpCoulomb)
+@implements(slip_threshold, SharpCoulomb)
 def _threshold(tangential, normal, overlap):
     force, _ = normal_response(normal, overlap)
     scale, _ = tangential_scale(normal, overlap)
     return tangential.friction_coefficient * force / (tangential.stiffness * scale)
 
 
-@implements(admissible, SharpCoulomb)
-def _kept(tangential, normal, overlap, displacement):
-    limit = threshold(tangential, normal, overlap)
-    return min(max(displacement, -limit), limit)
+@implements(clip_to_coulomb, SharpCoulomb)
+def _clip(tangential, normal, overlap, spring_state):
+    limit = slip_threshold(tangential, normal, overlap)
+    return min(max(spring_state, -limit), limit)
 
 
 @implements(tangential_energy, SharpCoulomb)
-def _energy(tangential, normal, overlap, displacement):
+def _energy(tangential, normal, overlap, spring_state):
     scale, _ = tangential_scale(normal, overlap)
-    return 0.5 * tangential.stiffness * scale * displacement * displacement
+    return 0.5 * tangential.stiffness * scale * spring_state * spring_state

@@ -50,10 +50,16 @@ class Seen(NamedTuple):
     @classmethod
     def of(cls, balance: Balance) -> Seen:
         """Count the pairs of a state, and release it where there is one."""
-        packing, contacts, rule = balance.backbone, balance.backbone_contacts, balance.interaction
-        slips, sticks = (oscillation(packing, contacts, rule, s) for s in (SLIPPING, STICKING))
-        slipping = int(slipping_contacts(contacts, rule).sum())
-        growth = growth_rate(packing, rule, slips) if slips.pairs else np.nan
+        packing, contacts, interaction = (
+            balance.backbone,
+            balance.backbone_contacts,
+            balance.interaction,
+        )
+        slips, sticks = (
+            oscillation(packing, contacts, interaction, s) for s in (SLIPPING, STICKING)
+        )
+        slipping = int(slipping_contacts(contacts, interaction).sum())
+        growth = growth_rate(packing, interaction, slips) if slips.pairs else np.nan
         return cls(packing.strain, slips.pairs, sticks.pairs, slipping, slips.rate, growth)
 
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.kernels.neighbours import RESOLUTION
+from grainmodes.kernels.neighbours import FRACTION_UNIT
 from grainmodes.packing.state import Packing
 
 QUADRUPOLE = 2
@@ -45,5 +45,5 @@ def rotational_poles(packing: Packing, displacement: np.ndarray) -> tuple[float,
 
 def _from(packing: Packing, grain: int) -> np.ndarray:
     """r⃗ of every grain from one of them, the nearest image, (N, 2) in d."""
-    s_x, s_y = (packing.fraction - packing.fraction[:, [grain]]) * RESOLUTION
+    s_x, s_y = (packing.fraction - packing.fraction[:, [grain]]) * FRACTION_UNIT
     return np.stack([s_x + packing.strain * s_y, s_y], axis=1) * packing.box_length

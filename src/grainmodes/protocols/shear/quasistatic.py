@@ -25,7 +25,7 @@ import numpy as np
 
 from grainmodes.kernels.damping import Drag
 from grainmodes.kernels.laws import Interaction
-from grainmodes.kernels.springs import advanced_displacement
+from grainmodes.kernels.springs import advance_by_slide
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import is_frictionless, mean_contact_force
 from grainmodes.packing.state import Packing, find_contacts
@@ -82,7 +82,7 @@ def affinely(before: Balance, strain: float, loaded: bool) -> Packing:
     slide = (strain - before.packing.strain) * r[:, 1]
     middle = np.hypot(r[:, 0] + 0.5 * slide, r[:, 1])
     overlap = contacts.overlap + contacts.distance - middle
-    s = advanced_displacement(
+    s = advance_by_slide(
         before.interaction, overlap, contacts.displacement, slide * r[:, 1] / middle
     )
     return replace(sheared, history=History(contacts.i, contacts.j, s))

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from grainmodes.kernels.laws import Interaction
-from grainmodes.kernels.springs import advanced_displacement
+from grainmodes.kernels.springs import advance_by_slide
 from grainmodes.packing.forces import energy, stress
 from grainmodes.packing.state import Packing, find_contacts, nonaffine_motion
 from grainmodes.relaxation.balance import Balance
@@ -162,7 +162,7 @@ def reopened(before: Packing, after: Packing, interaction: Interaction) -> int:
     slip = moved[i] - moved[j]
     along = np.einsum("ca,ca->c", slip[:, :2], contacts.tangent[both])
     nothing, one = np.zeros(len(s)), np.ones(len(s))
-    weight = advanced_displacement(interaction, contacts.overlap[both], nothing, one)
+    weight = advance_by_slide(interaction, contacts.overlap[both], nothing, one)
     had = old.spring_state[known]
     missing = np.abs(s - had - weight * (along + moved[i, 2] + moved[j, 2]))
     square = weight * (np.abs(moved[i]) + np.abs(moved[j])).sum(axis=1) ** 2

@@ -19,8 +19,8 @@ TURN = np.exp(-2j * np.pi * np.arange(60) / 60)
 
 
 def balance() -> Balance:
-    start, _, rule = state()
-    return Balance.of(start.packing, rule)
+    start, _, interaction = state()
+    return Balance.of(start.packing, interaction)
 
 
 def motions(equilibrium: Balance) -> np.ndarray:

@@ -9,7 +9,7 @@ import pytest
 from example_packings import crowd, reference
 from grainmodes.kernels.damping import Drag, Undamped
 from grainmodes.kernels.dynamics import Stop
-from grainmodes.kernels.laws import Elastic, Hertz, Interaction, interaction
+from grainmodes.kernels.laws import Elastic, Hertz, Interaction
 from grainmodes.packing.forces import energy, stress
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.mass_weighted import generalized_mass
@@ -26,11 +26,11 @@ from released import SHORT, released, series, state
 
 
 def test_the_state_has_the_pair_that_it_says():
-    start, _, rule = state()
-    assert start.residual(rule) < 1e-12
+    start, _, interaction = state()
+    assert start.residual(interaction) < 1e-12
     assert (start.frequency + 1j * start.rate) ** 2 == pytest.approx(start.eigenvalue)
     worse = replace(start, mode=np.roll(start.mode, 1))
-    assert worse.residual(rule) > 0.1
+    assert worse.residual(interaction) > 0.1
 
 
 def test_the_kick_goes_along_the_paper_s_vector_and_moves_no_centre():
@@ -56,9 +56,9 @@ def test_a_drag_slows_the_growth_as_the_quadratic_says(times):
 
 
 def test_a_kicked_state_moves_as_linear_theory_says():
-    start, _, rule = state()
+    start, _, interaction = state()
     steps, dt, size = 4000, 0.01, 1e-9
-    motion = move(start.packing, start.kick(size), rule, Undamped(), dt, Stop(0.0, steps))
+    motion = move(start.packing, start.kick(size), interaction, Undamped(), dt, Stop(0.0, steps))
     moved = nonaffine_motion(start.packing, motion.packing)
     omega = start.frequency + 1j * start.rate
     weight = start.eigenvalue.real + start.eigenvalue.imag
@@ -72,28 +72,28 @@ def test_a_kicked_state_moves_as_linear_theory_says():
 def test_drag_acts_in_every_piece_of_a_run_from_its_first_step_on():
     """Free grains in pieces of one step slow down as e^(−ηt)."""
     packing = Packing.from_positions([[1.0, 1.0], [4.0, 4.0]], [1.0, 0.7], 6.0)
-    rule, motion = state()[2], Motion(packing, np.full((2, 3), 0.01), 0, np.inf)
+    interaction, motion = state()[2], Motion(packing, np.full((2, 3), 0.01), 0, np.inf)
     for _ in range(100):
-        motion = move(motion.packing, motion.velocity, rule, Drag(0.8), 1e-2, Stop(0.0, 1))
+        motion = move(motion.packing, motion.velocity, interaction, Drag(0.8), 1e-2, Stop(0.0, 1))
     np.testing.assert_allclose(motion.velocity, 0.01 * np.exp(-0.8), rtol=1e-2)
 
 
 def moved_state(size: float = 0.02):
     """The state some time after a hard kick, contacts gone and made."""
-    start, _, rule = state()
-    motion = move(start.packing, start.kick(size), rule, Undamped(), 0.05, Stop(0.0, 500))
-    return start.packing, motion, rule
+    start, _, interaction = state()
+    motion = move(start.packing, start.kick(size), interaction, Undamped(), 0.05, Stop(0.0, 500))
+    return start.packing, motion, interaction
 
 
 def test_a_record_is_what_its_names_say():
-    start, now, rule = moved_state()
-    found = record(25.0, now, start, rule)
+    start, now, interaction = moved_state()
+    found = record(25.0, now, start, interaction)
     contacts, packing = find_contacts(now.packing), now.packing
     moved = nonaffine_motion(start, packing)
     m = sum(moved[i, 0] ** 2 + moved[i, 1] ** 2 for i in range(50)) / 50
     a = sum((2.0 * moved[i, 2] / packing.diameter[i]) ** 2 for i in range(50)) / 50
     np.testing.assert_allclose(found[1:3], (m, a), rtol=1e-12)
-    sigma = stress(packing, contacts, rule)
+    sigma = stress(packing, contacts, interaction)
     np.testing.assert_allclose(
         found[3:6], (-(sigma[0, 0] + sigma[1, 1]) / 2, sigma[0, 1], sigma[1, 0])
     )
@@ -109,22 +109,22 @@ def test_a_record_is_what_its_names_say():
 def test_sliding_contacts_are_those_beyond_the_threshold():
     for tangential in ("smoothed_coulomb", "sharp_coulomb"):
         packing = crowd(5, slip=1.0)
-        rule = interaction(ContactLaw("hertz", tangential, 0.5, 0.3))
+        interaction = Interaction.from_law(ContactLaw("hertz", tangential, 0.5, 0.3))
         contacts = find_contacts(packing)
         over = np.abs(contacts.displacement) >= 0.3 / 0.5 * contacts.overlap
         still = Motion(packing, np.zeros((16, 3)), 0, 0.0)
         turning = replace(packing, rotation=np.zeros(16))
-        found = record(0.0, replace(still, packing=turning), turning, rule).sliding
+        found = record(0.0, replace(still, packing=turning), turning, interaction).sliding
         assert 0 < found == over.sum() < len(over)
-    never = interaction(ContactLaw("hertz", "elastic", 0.5))
+    never = Interaction.from_law(ContactLaw("hertz", "elastic", 0.5))
     assert record(0.0, replace(still, packing=turning), turning, never).sliding == 0
 
 
 def test_the_pressures_of_the_grains_add_up():
     """C, Fig. 10: P = Σ_i P_i, whatever the tangential forces are."""
-    start, now, rule = moved_state()
-    found = burden(now.packing, rule)
-    assert found.pressure.sum() == pytest.approx(record(0.0, now, start, rule).pressure)
+    start, now, interaction = moved_state()
+    found = burden(now.packing, interaction)
+    assert found.pressure.sum() == pytest.approx(record(0.0, now, start, interaction).pressure)
     assert found.binary.sum() / (2.0 * start.box_length**2) == pytest.approx(found.pressure.sum())
     assert found.contacts.sum() == 2 * len(found.binary)
 
@@ -217,9 +217,9 @@ def test_a_film_shows_every_grain_a_part_of_a_turn_apart():
 
 
 def test_the_film_of_a_fast_growth_is_no_longer_than_that_of_a_slow_one():
-    start, _, rule = state()
+    start, _, interaction = state()
     fast = replace(start, eigenvalue=(0.24 + 0.06j) ** 2)
-    run = Run.begin(fast, rule, SHORT)
+    run = Run.begin(fast, interaction, SHORT)
     run._look_closely()
     taken = np.array(sorted(run.frames)) * SHORT.time_step
     assert len(taken) == FRAMES
@@ -285,8 +285,8 @@ def test_what_does_not_happen_has_no_moment():
 
 def test_equation_25_needs_the_other_vector_in_its_last_term():
     """J u_i = λ_i u_r + λ_r u_i; printed is λ_r u_r."""
-    start, _, rule = state()
-    matrix = jacobian(start.packing, find_contacts(start.packing), rule)
+    start, _, interaction = state()
+    matrix = jacobian(start.packing, find_contacts(start.packing), interaction)
     mass = generalized_mass(start.packing.mass).ravel()
     u_r, u_i = start.mode.real.ravel(), start.mode.imag.ravel()
     found, value = matrix @ u_i / mass, start.eigenvalue
@@ -296,9 +296,9 @@ def test_equation_25_needs_the_other_vector_in_its_last_term():
 
 
 def test_a_state_that_leaves_too_slowly_is_refused():
-    start, _, rule = state()
+    start, _, interaction = state()
     with pytest.raises(ArithmeticError, match="omega_i"):
-        Run.begin(start, rule, Release(max_steps=1000))
+        Run.begin(start, interaction, Release(max_steps=1000))
 
 
 def test_only_a_run_without_damping_goes_on_to_the_end_of_its_plateau():
@@ -322,27 +322,29 @@ def test_momentum_is_kept_to_round_off():
 def test_without_friction_the_energy_oscillates_by_dt_squared():
     """Drift and swing of the total energy fall by four when Δt is halved."""
     packing = reference("hertz_n64_phi0.900_seed1")[1]
-    rule = Interaction(Hertz(1.0), Elastic(0.0))
+    interaction = Interaction(Hertz(1.0), Elastic(0.0))
     start = np.random.default_rng(2).normal(0.0, 1e-4, (64, 3))
-    off = [energy_error(packing, start, rule, dt) for dt in (0.2, 0.1, 0.05)]
+    off = [energy_error(packing, start, interaction, dt) for dt in (0.2, 0.1, 0.05)]
     np.testing.assert_allclose(np.log2(np.divide(off[:-1], off[1:])), 2.0, atol=0.3)
 
 
-def energy_error(packing, start, rule, dt: float) -> float:
+def energy_error(packing, start, interaction, dt: float) -> float:
     inertia = packing.mass[:, None] * np.array([1.0, 1.0, 0.5])
     motion, totals = Motion(packing, start, 0, np.inf), []
     for _ in range(100):
         kinetic = 0.5 * (inertia * motion.velocity**2).sum()
-        totals.append(kinetic + energy(find_contacts(motion.packing), rule))
+        totals.append(kinetic + energy(find_contacts(motion.packing), interaction))
         motion = move(
-            motion.packing, motion.velocity, rule, Undamped(), dt, Stop(0.0, round(2 / dt))
+            motion.packing, motion.velocity, interaction, Undamped(), dt, Stop(0.0, round(2 / dt))
         )
     return np.abs(np.array(totals) - totals[0]).max()
 
 
 def test_a_loose_grain_changes_no_contacts():
-    start, _, rule = state()
+    start, _, interaction = state()
     n, contacts = start.packing.n, find_contacts(start.packing)
     without_last = contacts.among(np.arange(n) < n - 1)
-    assert changes(contacts, without_last, n, rule) == 0
-    assert changes(without_last, contacts, n, rule) == len(contacts.i) - len(without_last.i) > 0
+    assert changes(contacts, without_last, n, interaction) == 0
+    assert (
+        changes(without_last, contacts, n, interaction) == len(contacts.i) - len(without_last.i) > 0
+    )
