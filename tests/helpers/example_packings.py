@@ -36,6 +36,14 @@ ELASTIC = (
     "harmonic_n64_phi0.860_seed2",
     "harmonic_n64_phi0.900_seed1",
 )
+
+
+def every_kt_once(kts) -> list[tuple[str, float]]:
+    """(file, k_T): every k_T with one Hertzian and one harmonic file, the files in turn."""
+    by_law = [[name for name in ELASTIC if name.startswith(law)] for law in ("hertz", "harmonic")]
+    return [(names[k % len(names)], kt) for k, kt in enumerate(kts) for names in by_law]
+
+
 SHEARED = "smoothed_coulomb_n50_mu10_seed1"
 
 REMEMBERING_DISPLACEMENT = (

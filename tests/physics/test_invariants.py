@@ -12,6 +12,7 @@ from example_packings import (
     SHEARED,
     crowd,
     elastic,
+    every_kt_once,
     law_name,
     reference,
     smoothed_coulomb,
@@ -24,8 +25,7 @@ from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import spectrum
 
 
-@pytest.mark.parametrize("kt", KTS)
-@pytest.mark.parametrize("name", ELASTIC)
+@pytest.mark.parametrize(("name", "kt"), every_kt_once(KTS))
 def test_exactly_two_zero_modes(name, kt):
     packing = reference(name)[1]
     found = spectrum(packing, elastic(name, kt))
@@ -60,8 +60,7 @@ def test_fractions_of_every_mode_add_up(kt):
     assert np.all((p >= 1 / packing.n - 1e-12) & (p <= 1 + 1e-12))
 
 
-@pytest.mark.parametrize("kt", KTS)
-@pytest.mark.parametrize("name", ELASTIC)
+@pytest.mark.parametrize(("name", "kt"), every_kt_once(KTS))
 def test_relaxing_a_loaded_step_only_softens(name, kt):
     found = rigidity(reference(name)[1], elastic(name, kt))
     assert found.loaded.g_nonaffine <= 0.0
@@ -112,7 +111,7 @@ def packings_and_laws() -> list:
     still = [
         pytest.param(reference(name)[1], elastic(name, kt), id=f"{name[:12]}-{kt:g}")
         for name in ELASTIC[1:3]
-        for kt in (0.0, 1e-2, 2.0)
+        for kt in (0.0, 2.0)
     ]
     return [*still, pytest.param(*slipped(), id="slipped")]
 

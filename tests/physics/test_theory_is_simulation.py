@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from example_packings import ELASTIC, MINIMAL, elastic, reference
+from example_packings import ELASTIC, MINIMAL, elastic, every_kt_once, reference
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import stress
 from grainmodes.packing.state import Packing, find_contacts
@@ -17,8 +17,7 @@ from grainmodes.response.moduli import rigidity
 KTS = (0.0, 1e-8, 1e-4, 1e-2, 1.0, 2.0, 10.0)
 
 
-@pytest.mark.parametrize("kt", KTS)
-@pytest.mark.parametrize("name", ELASTIC)
+@pytest.mark.parametrize(("name", "kt"), every_kt_once(KTS))
 def test_unloaded_step(name, kt):
     packing, interaction = reference(name)[1], elastic(name, kt)
     simulated = step_strain(packing, interaction, StepStrain())
@@ -40,8 +39,7 @@ def continuously_sheared(packing: Packing, interaction, strain: float) -> Packin
     return relaxed.packing
 
 
-@pytest.mark.parametrize("kt", KTS[1:])
-@pytest.mark.parametrize("name", ELASTIC)
+@pytest.mark.parametrize(("name", "kt"), every_kt_once(KTS[1:]))
 def test_loaded_step(name, kt):
     packing, interaction = reference(name)[1], elastic(name, kt)
     ends = [continuously_sheared(packing, interaction, step) for step in (1e-6, -1e-6)]

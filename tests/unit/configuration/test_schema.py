@@ -47,18 +47,19 @@ def test_the_schema_is_one():
     Draft202012Validator.check_schema(schema())
 
 
-@pytest.mark.parametrize(("key", "rule"), list(leaves(schema())), ids=lambda value: str(value)[:40])
-def test_every_key_says_what_it_is(key, rule):
-    assert rule["description"].endswith(".")
-    inner = rule.get("items", rule)
-    numeric = "number" in inner.get("type", "") or "integer" in inner.get("type", "")
-    assert {"type", "enum"} & set(inner)
-    assert not numeric or {"maximum"} <= set(inner)
+def test_every_key_says_what_it_is():
+    for key, rule in leaves(schema()):
+        inner = rule.get("items", rule)
+        numeric = "number" in inner.get("type", "") or "integer" in inner.get("type", "")
+        assert rule["description"].endswith("."), key
+        assert {"type", "enum"} & set(inner), key
+        assert not numeric or {"maximum"} <= set(inner), key
 
 
-@pytest.mark.parametrize("key", [key for key, _ in leaves(schema())])
-def test_every_key_stands_in_the_handbook(key):
-    assert f"`{key}`" in (CONFIG / "README.md").read_text(encoding="utf-8")
+def test_every_key_stands_in_the_handbook():
+    handbook = (CONFIG / "README.md").read_text(encoding="utf-8")
+    keys = [key for key, _ in leaves(schema())]
+    assert len(keys) > 60 and [key for key in keys if f"`{key}`" not in handbook] == []
 
 
 def test_defaults_are_those_of_the_protocol():

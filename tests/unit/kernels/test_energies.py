@@ -42,7 +42,7 @@ def test_the_normal_force_is_the_slope_by_the_overlap(law):
     np.testing.assert_allclose(slope(interaction, OVERLAPS, np.zeros(4), by=0), f_n, rtol=1e-8)
 
 
-@pytest.mark.parametrize("part", [-3.0, -0.9, -0.4, 0.4, 0.9, 3.0])
+@pytest.mark.parametrize("part", [-3.0, -0.4, 0.9, 3.0])
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
 def test_the_tangential_force_is_the_slope_by_the_displacement(law, part):
     """Beyond the threshold too, but for sharp Coulomb, whose spring is never longer."""

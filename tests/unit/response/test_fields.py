@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from example_packings import ELASTIC, MINIMAL, SHEARED, elastic, reference, smoothed_coulomb
+from example_packings import (
+    MINIMAL,
+    SHEARED,
+    elastic,
+    every_kt_once,
+    reference,
+    smoothed_coulomb,
+)
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw, Rattlers
@@ -31,8 +38,7 @@ def with_rattler(packing: Packing) -> Packing:
     return Packing.from_positions(position, np.append(0.05, packing.diameter), packing.box_length)
 
 
-@pytest.mark.parametrize("kt", KTS)
-@pytest.mark.parametrize("name", ELASTIC)
+@pytest.mark.parametrize(("name", "kt"), every_kt_once(KTS))
 def test_the_sum_over_the_modes_is_the_direct_solve(name, kt):
     packing, interaction = reference(name)[1], elastic(name, kt)
     direct, summed = nonaffine_field(packing, interaction), mode_sum_field(packing, interaction)
@@ -43,8 +49,7 @@ def test_the_sum_over_the_modes_is_the_direct_solve(name, kt):
     assert_allclose(summed[:, 2], direct[:, 2], rtol=0, atol=spins * size)
 
 
-@pytest.mark.parametrize("kt", KTS)
-@pytest.mark.parametrize("name", ELASTIC)
+@pytest.mark.parametrize(("name", "kt"), every_kt_once(KTS))
 def test_the_simulation_is_the_theory(name, kt):
     packing, interaction = reference(name)[1], elastic(name, kt)
     direct, simulated = (
@@ -132,8 +137,7 @@ def test_rattlers_have_no_field_and_change_none():
         assert_allclose(found[1:], field(packing, interaction), atol=1e-8)
 
 
-@pytest.mark.parametrize("kt", KTS)
-@pytest.mark.parametrize("name", [MINIMAL[0], HERTZ])
+@pytest.mark.parametrize(("name", "kt"), list(zip([MINIMAL[0], HERTZ] * 3, KTS, strict=True)))
 def test_single_modes_are_those_of_the_dense_spectrum(name, kt):
     packing, interaction = reference(name)[1], elastic(name, kt)
     frequencies = (1e-4, 1.3e-2, 0.5, 1.0)

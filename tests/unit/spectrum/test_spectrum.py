@@ -11,6 +11,7 @@ from example_packings import (
     SHEARED,
     contacts_and_pairs,
     elastic,
+    every_kt_once,
     reference,
     smoothed_coulomb,
 )
@@ -25,8 +26,7 @@ GAP = 1e-6
 """Relative gap to both neighbours above which the direction of a mode is well defined."""
 
 
-@pytest.mark.parametrize("kt", KTS)
-@pytest.mark.parametrize("name", ELASTIC)
+@pytest.mark.parametrize(("name", "kt"), every_kt_once(KTS))
 def test_reference_eigenvalues_and_rotational_fractions(name, kt):
     data, packing = reference(name)
     data, found = data.sel(kt=kt), spectrum(packing, elastic(name, kt))
