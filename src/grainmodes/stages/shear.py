@@ -64,7 +64,7 @@ def shear_block(
         row = row_of(walk) | ({} if walk.done else {"failure": walk.ending})
         if coarse_run:
             coarse = replace(choices, min_step=choices.step)
-            row |= _unbracketed(
+            row |= _coarse_run(
                 walked(packing, interaction, coarse, keeper, f"seed-{seed}-coarse_run")
             )
             row |= bracket_ends(brackets(packing, interaction, choices))
@@ -85,7 +85,7 @@ def walked(
     return walk
 
 
-def _unbracketed(walk: Walk) -> dict[str, object]:
+def _coarse_run(walk: Walk) -> dict[str, object]:
     """The stress of a walk whose events are not bracketed."""
     return {
         "coarse_strain": [p.strain for p in walk.curve],

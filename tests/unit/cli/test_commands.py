@@ -61,7 +61,7 @@ def test_help_names_every_command(capsys):
         "step-strain",
         "spectrum",
         "fields",
-        "claim_diagnostics",
+        "claim-diagnostics",
     )
     for name in (*commands, "gather", "cost", "claims"):
         assert f"    {name}" in text
