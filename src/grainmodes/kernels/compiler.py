@@ -7,11 +7,12 @@ machine, so the same machine gives the same bytes. NaN and infinity keep their m
 from __future__ import annotations
 
 import inspect
+import secrets
 
 import llvmlite.binding
 import numba
 from numba import njit
-from numba.core.caching import FunctionCache
+from numba.core.caching import FunctionCache, IndexDataCacheFile
 from numba.extending import overload, register_jitable
 
 from grainmodes.runtime.environment import numba_cache
@@ -37,8 +38,28 @@ OUTSIDE: set[type] = set()
 """Laws that a function from outside the package stands behind."""
 
 
+class _CacheFile(IndexDataCacheFile):
+    """Files of compiled code that several processes may write at once.
+
+    numba numbers a data file after the index that it has just read. Two processes that compile one
+    kernel for two laws at the same time take the same number, and then one law can run with the
+    code of the other. With random numbers the worst that happens is that a law is compiled twice.
+    """
+
+    def _data_name(self, number):
+        return super()._data_name(secrets.randbits(63))
+
+
 class _Cache(FunctionCache):
     """numba's cache on disk, closed to laws from outside: it would not see an edit of them."""
+
+    def __init__(self, function):
+        super().__init__(function)
+        self._cache_file = _CacheFile(
+            cache_path=self._cache_path,
+            filename_base=self._impl.filename_base,
+            source_stamp=self._impl.locator.get_source_stamp(),
+        )
 
     def load_overload(self, sig, target_context):
         return None if _from_outside(sig) else super().load_overload(sig, target_context)
