@@ -31,7 +31,7 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.frictionless import relax_fast, relax_fire
 from grainmodes.relaxation.newton import newton
 from grainmodes.response.moduli import rigidity
-from grainmodes.spectrum import problem
+from grainmodes.spectrum import Eigenproblem
 from grainmodes.stages.rows import SAMPLE_ERRORS
 from grainmodes.statistics.averages import TRANSLATIONS
 from measurements.accuracy.diagram import FAILED, Diagram, Row, Sample, Size, apart, of, row, timed
@@ -73,7 +73,7 @@ class Answers(NamedTuple):
 
 def answers(packing: Packing) -> Answers:
     """The answers of a packing, without its rattlers."""
-    matrix = problem(packing, INTERACTION).matrix.toarray()
+    matrix = Eigenproblem.from_packing(packing, INTERACTION).matrix.toarray()
     values = scipy.linalg.eigvalsh(matrix)
     values = values[np.argsort(np.abs(values))][TRANSLATIONS:]
     g = rigidity(packing, INTERACTION).unloaded.g

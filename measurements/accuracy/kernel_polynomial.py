@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.spectrum.problem import Problem
+from grainmodes.spectrum.eigenproblem import Eigenproblem
 
 VECTORS = 32
 """Random vectors."""
@@ -33,18 +33,18 @@ class Moments(NamedTuple):
     high: float
 
 
-def moments(problem: Problem, count: int, seed: int = 0) -> Moments:
+def moments(eigenproblem: Eigenproblem, count: int, seed: int = 0) -> Moments:
     """The first `count` moments of a symmetric J, estimated by `VECTORS` vectors."""
-    low, high = -MARGIN * problem.bound, (1.0 + MARGIN) * problem.bound
+    low, high = -MARGIN * eigenproblem.bound, (1.0 + MARGIN) * eigenproblem.bound
     centre, half = 0.5 * (high + low), 0.5 * (high - low)
-    z = np.random.default_rng(seed).choice([-1.0, 1.0], (problem.size, VECTORS))
-    rotation = np.arange(problem.size) % problem.k == 2
+    z = np.random.default_rng(seed).choice([-1.0, 1.0], (eigenproblem.size, VECTORS))
+    rotation = np.arange(eigenproblem.size) % eigenproblem.k == 2
     found = np.empty((2, count))
-    before, now = (problem.matrix @ z - centre * z) / half, z
+    before, now = (eigenproblem.matrix @ z - centre * z) / half, z
     for m in range(count):
         weight = z * now
         found[:, m] = weight.sum(), weight[rotation].sum()
-        ahead = 2.0 / half * (problem.matrix @ now - centre * now) - before
+        ahead = 2.0 / half * (eigenproblem.matrix @ now - centre * now) - before
         before, now = now, ahead
     return Moments(*found / VECTORS, low, high)
 

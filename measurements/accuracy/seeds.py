@@ -24,7 +24,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.response.moduli import rigidity
-from grainmodes.spectrum import band_averages, problem
+from grainmodes.spectrum import Eigenproblem, average_in_bins
 from grainmodes.stages.rows import SAMPLE_ERRORS
 from grainmodes.statistics.averages import average
 from grainmodes.statistics.binning import fixed_edges
@@ -74,7 +74,9 @@ def ensemble(n: int, seeds: int) -> np.ndarray:
         try:
             packing = compressed(n, seed, PHI)
             g = rigidity(packing, INTERACTION).unloaded.g
-            modes = band_averages(problem(packing, INTERACTION), edges, averages=False).count
+            modes = average_in_bins(
+                Eigenproblem.from_packing(packing, INTERACTION), edges, averages=False
+            ).count
         except SAMPLE_ERRORS:
             continue
         found[seed] = np.append(g, modes)

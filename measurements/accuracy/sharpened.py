@@ -15,22 +15,22 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.spectrum import dense
-from grainmodes.spectrum.problem import Problem
+from grainmodes.spectrum.eigenproblem import Eigenproblem
 
 CLOSE = 1e-15
 """Distance of two eigenvalues, in ‖J‖, below which their vectors are left mixed: the zero modes."""
 
 
-def sharpened(problem: Problem) -> tuple[np.ndarray, np.ndarray]:
+def sharpened(eigenproblem: Eigenproblem) -> tuple[np.ndarray, np.ndarray]:
     """λ (M,) ascending, and X (M, M), one column a mode, of a symmetric J."""
-    vectors = dense.eigenpairs(problem)[1]
-    values, residual = _quotients(problem.matrix, vectors)
+    vectors = dense.eigenpairs(eigenproblem)[1]
+    values, residual = _quotients(eigenproblem.matrix, vectors)
     gap = values[None, :] - values[:, None]
     apart = np.abs(gap) > CLOSE * np.abs(values).max()
     turn = np.divide(vectors.T @ residual, gap, out=np.zeros_like(gap), where=apart)
     vectors = vectors + vectors @ turn
     vectors /= np.linalg.norm(vectors, axis=0)
-    values, _ = _quotients(problem.matrix, vectors)
+    values, _ = _quotients(eigenproblem.matrix, vectors)
     order = np.argsort(values, kind="stable")
     return values[order], vectors[:, order]
 

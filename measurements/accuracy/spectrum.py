@@ -32,8 +32,8 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import DENSE_COUNTS_UP_TO, DENSE_MODES_UP_TO, SpectrumChoices
-from grainmodes.spectrum import Problem, dense, full_spectrum, problem
-from grainmodes.spectrum.inertia_counts import counts, rotational_sums
+from grainmodes.spectrum import Eigenproblem, dense, full_spectrum
+from grainmodes.spectrum.inertia_counts import count_below, rotational_sums
 from grainmodes.spectrum.measures import rotational_fraction
 from grainmodes.statistics.binning import fixed_edges
 from measurements.accuracy import kernel_polynomial
@@ -80,54 +80,56 @@ def _mean(sums: np.ndarray, modes: np.ndarray) -> np.ndarray:
     return np.divide(sums, modes, out=np.zeros(len(sums)), where=modes > 0)
 
 
-def _weight(of: Problem, vectors: np.ndarray) -> np.ndarray:
-    return np.abs(vectors.reshape(of.size // of.k, of.k, -1)) ** 2
+def _weight(eigenproblem: Eigenproblem, vectors: np.ndarray) -> np.ndarray:
+    return np.abs(vectors.reshape(eigenproblem.size // eigenproblem.k, eigenproblem.k, -1)) ** 2
 
 
-def dense_symmetric(of: Problem, modes: float) -> Found:
+def dense_symmetric(eigenproblem: Eigenproblem, modes: float) -> Found:
     """Divide and conquer."""
-    values, vectors = dense.eigenpairs(of)
-    return every_mode(values, rotational_fraction(_weight(of, vectors)))
+    values, vectors = dense.eigenpairs(eigenproblem)
+    return every_mode(values, rotational_fraction(_weight(eigenproblem, vectors)))
 
 
-def dense_general(of: Problem, modes: float) -> Found:
+def dense_general(eigenproblem: Eigenproblem, modes: float) -> Found:
     """The solver for matrices of any kind, as the papers take it."""
-    values, vectors = dense.eigenpairs(replace(of, symmetric=False))
-    return every_mode(values.real, rotational_fraction(_weight(of, vectors)))
+    values, vectors = dense.eigenpairs(replace(eigenproblem, symmetric=False))
+    return every_mode(values.real, rotational_fraction(_weight(eigenproblem, vectors)))
 
 
-def windows(of: Problem, modes: float) -> Found:
+def windows(eigenproblem: Eigenproblem, modes: float) -> Found:
     """Block Lanczos between exact counts."""
-    found = full_spectrum(of, choices=SpectrumChoices("slicing"))
+    found = full_spectrum(eigenproblem, choices=SpectrumChoices("slicing"))
     return every_mode(found.eigenvalue, found.psi_rotational)
 
 
-def counted(of: Problem, bin_density: float) -> Found:
+def counted(eigenproblem: Eigenproblem, bin_density: float) -> Found:
     """A's bins, their modes evenly between the edges."""
     edges = fixed_edges(FAINT, bin_density)
-    return Found(np.interp(_ranks(of), counts(of.shift(), edges), edges), None)
+    below = count_below(eigenproblem.symmetric_shift(), edges)
+    return Found(np.interp(_ranks(eigenproblem), below, edges), None)
 
 
-def _ranks(of: Problem) -> np.ndarray:
-    return np.arange(of.size) + 0.5
+def _ranks(eigenproblem: Eigenproblem) -> np.ndarray:
+    return np.arange(eigenproblem.size) + 0.5
 
 
-def counted_twice(of: Problem, cells: float) -> Found:
+def counted_twice(eigenproblem: Eigenproblem, cells: float) -> Found:
     """ψ^R from counts in two shifts."""
-    shift = of.shift()
-    below = counts(shift, BINS)
-    sums = rotational_sums(shift, below, BINS, of.k, int(cells))
+    shift = eigenproblem.symmetric_shift()
+    below = count_below(shift, BINS)
+    sums = rotational_sums(shift, below, BINS, eigenproblem.k, int(cells))
     return Found(None, _mean(sums.total, np.diff(below)))
 
 
-def stochastic(of: Problem, moments: float) -> Found:
+def stochastic(eigenproblem: Eigenproblem, moments: float) -> Found:
     """The kernel polynomial method."""
-    mu, at = kernel_polynomial.moments(of, int(moments)), fixed_edges(FAINT, FINER * FINENESS[-1])
+    mu = kernel_polynomial.moments(eigenproblem, int(moments))
+    at = fixed_edges(FAINT, FINER * FINENESS[-1])
     below = kernel_polynomial.below(mu.all, mu, at**2)
     modes, sums = (
         np.diff(kernel_polynomial.below(part, mu, BINS**2)) for part in (mu.all, mu.rotational)
     )
-    return Found(np.interp(_ranks(of), below, at), _mean(sums, modes))
+    return Found(np.interp(_ranks(eigenproblem), below, at), _mean(sums, modes))
 
 
 class Method(NamedTuple):
@@ -136,7 +138,7 @@ class Method(NamedTuple):
     `up_to` is the largest M that it takes minutes for, `ships` for which M it is the project's.
     """
 
-    find: Callable[[Problem, float], Found]
+    find: Callable[[Eigenproblem, float], Found]
     gives: tuple[str, ...]
     settings: tuple[float, ...]
     shipped: float | None
@@ -171,13 +173,16 @@ METHODS = {
 }
 
 
-def reference(of: Problem) -> Found:
+def reference(eigenproblem: Eigenproblem) -> Found:
     """What all methods are held against."""
-    if of.size > DENSE_MODES_UP_TO:
-        finest = counted(of, FINER * FINENESS[-1]), counted_twice(of, FINER * CELLS[-1])
+    if eigenproblem.size > DENSE_MODES_UP_TO:
+        finest = (
+            counted(eigenproblem, FINER * FINENESS[-1]),
+            counted_twice(eigenproblem, FINER * CELLS[-1]),
+        )
         return Found(finest[0].frequency, finest[1].rotational)
-    values, vectors = sharpened(of)
-    return every_mode(values, rotational_fraction(_weight(of, vectors)))
+    values, vectors = sharpened(eigenproblem)
+    return every_mode(values, rotational_fraction(_weight(eigenproblem, vectors)))
 
 
 def measure(size: Size) -> Iterator[Row]:
@@ -192,9 +197,9 @@ def measure(size: Size) -> Iterator[Row]:
 def _measured(packings: list[Packing], what: str) -> Iterator[Row]:
     kappa, error = QUANTITIES[what]
     interaction = Interaction.from_law(ContactLaw(kt=kappa))
-    problems = [problem(packing, interaction) for packing in packings]
-    exact = [apart(reference, of).value for of in problems]
-    modes = min(of.size for of in problems)
+    problems = [Eigenproblem.from_packing(packing, interaction) for packing in packings]
+    exact = [apart(reference, eigenproblem).value for eigenproblem in problems]
+    modes = min(eigenproblem.size for eigenproblem in problems)
     for name, method in METHODS.items():
         for setting in method.at(modes) if what in method.gives else ():
             done = apart(sampled, name, setting, problems)
@@ -204,10 +209,11 @@ def _measured(packings: list[Packing], what: str) -> Iterator[Row]:
             yield row(f"{name}, {what}", setting, samples, done.megabytes, default)
 
 
-def sampled(name: str, setting: float, problems: list[Problem]) -> list[tuple[Found, float]]:
+def sampled(name: str, setting: float, problems: list[Eigenproblem]) -> list[tuple[Found, float]]:
     """The spectrum of every problem, and its CPU seconds."""
-    problems[0].shift().factor_at(1.0)
-    return [timed(METHODS[name].find, of, setting, at_least=LEAST) for of in problems]
+    problems[0].symmetric_shift().factor_at(1.0)
+    find = METHODS[name].find
+    return [timed(find, problem, setting, at_least=LEAST) for problem in problems]
 
 
 def error_of_density(found: Found, exact: Found) -> float:

@@ -27,7 +27,7 @@ from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import SKIN, STABILITY, UNLIMITED, relax_loosely
 from grainmodes.relaxation.newton import newton
 from grainmodes.response.moduli import rigidity
-from grainmodes.spectrum import band_averages, full_spectrum, problem
+from grainmodes.spectrum import Eigenproblem, average_in_bins, full_spectrum
 from grainmodes.statistics.binning import fixed_edges
 from measurements.benchmarks.cases import HERTZ, balanced_at, quenched
 
@@ -128,14 +128,15 @@ def sheared(law: ContactLaw, n: int) -> Work:
 
 def bands(averages: bool, law: ContactLaw, n: int) -> Work:
     """The default bins: counts alone, or with ψ^R and p."""
-    of, edges = problem(unloaded(n), Interaction.from_law(law)), fixed_edges(law.kt, 0.2)
-    return lambda: band_averages(of, edges, averages)
+    eigenproblem = Eigenproblem.from_packing(unloaded(n), Interaction.from_law(law))
+    edges = fixed_edges(law.kt, 0.2)
+    return lambda: average_in_bins(eigenproblem, edges, averages)
 
 
 def eigen(modes: bool, state, law: ContactLaw, n: int) -> Work:
     """All eigenvalues, or all modes with ψ^R and p."""
-    of = problem(state(n), Interaction.from_law(law))
-    return lambda: full_spectrum(of, modes)
+    eigenproblem = Eigenproblem.from_packing(state(n), Interaction.from_law(law))
+    return lambda: full_spectrum(eigenproblem, modes)
 
 
 def rows() -> list[Row]:

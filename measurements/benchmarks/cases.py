@@ -38,8 +38,8 @@ from grainmodes.protocols.shear.run import Walk
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
 from grainmodes.response.moduli import rigidity
-from grainmodes.spectrum import SpectrumChoices, full_spectrum, problem, spectrum
-from grainmodes.spectrum.inertia_counts import counts, rotational_sums
+from grainmodes.spectrum import Eigenproblem, SpectrumChoices, full_spectrum, packing_spectrum
+from grainmodes.spectrum.inertia_counts import count_below, rotational_sums
 from grainmodes.stages import packings as stages
 
 HERTZ = Hertz(1.0)
@@ -138,15 +138,15 @@ def moduli(n: int) -> float:
 def all_modes(n: int) -> float:
     """All eigenvalues with ψ and p."""
     packing, interaction = balanced_at(n, 0.9), Interaction.from_law(ContactLaw(kt=1e-4))
-    spectrum(quenched(16, 0.9), interaction)
-    return cpu(spectrum, packing, interaction)
+    packing_spectrum(quenched(16, 0.9), interaction)
+    return cpu(packing_spectrum, packing, interaction)
 
 
 def density_of_states(n: int, backend: str = "auto") -> float:
     """Modes in 159 bins from counts at 160 edges, ω t_0 = 1e-6 … 3."""
-    shift = weakly_frictional(n).shift(backend)
-    counts(shift, np.array([0.5]))
-    return cpu(counts, shift, np.geomspace(1e-6, 3.0, 160))
+    shift = weakly_frictional(n).symmetric_shift(backend)
+    count_below(shift, np.array([0.5]))
+    return cpu(count_below, shift, np.geomspace(1e-6, 3.0, 160))
 
 
 def density_of_states_superlu(n: int) -> float:
@@ -156,14 +156,14 @@ def density_of_states_superlu(n: int) -> float:
 
 def rotational_share(n: int) -> float:
     """ψ^R with its error in 20 bins over both bands, counts included."""
-    of = weakly_frictional(n)
-    shift = of.shift()
-    counts(shift, np.array([0.5]))
+    eigenproblem = weakly_frictional(n)
+    shift = eigenproblem.symmetric_shift()
+    count_below(shift, np.array([0.5]))
     edges = np.concatenate([np.linspace(1e-3, 2e-2, 9), np.linspace(0.1, 1.3, 13)[1:]])
 
     def measure():
-        below = counts(shift, edges)
-        found = rotational_sums(shift, below, edges, of.k, cells_per_bin=1)
+        below = count_below(shift, edges)
+        found = rotational_sums(shift, below, edges, eigenproblem.k, cells_per_bin=1)
         print("rotational_share: largest error of a mean", _worst(found.error, np.diff(below)))
 
     return cpu(measure)
@@ -176,13 +176,13 @@ def _worst(error: np.ndarray, count: np.ndarray) -> float:
 
 def all_pairs(n: int) -> float:
     """All eigenpairs with ψ and p, in certified windows."""
-    of = weakly_frictional(n)
-    return cpu(lambda: full_spectrum(of, choices=SpectrumChoices("slicing")))
+    eigenproblem = weakly_frictional(n)
+    return cpu(lambda: full_spectrum(eigenproblem, choices=SpectrumChoices("slicing")))
 
 
 def weakly_frictional(n: int):
     """The eigenproblem at φ = 0.90, k_T/k_N = 1e-4."""
-    return problem(balanced_at(n, 0.9), Interaction.from_law(ContactLaw(kt=1e-4)))
+    return Eigenproblem.from_packing(balanced_at(n, 0.9), Interaction.from_law(ContactLaw(kt=1e-4)))
 
 
 GRAINS_OF_C = Interaction.from_law(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, 10.0))

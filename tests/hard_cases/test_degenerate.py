@@ -22,7 +22,7 @@ from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, ExceptionalPoint
 from grainmodes.protocols.pair_tracking.tracking import PairWalk
 from grainmodes.relaxation.frictionless import relax_fast
-from grainmodes.spectrum import problem, spectrum_slicing
+from grainmodes.spectrum import Eigenproblem, slice_eigenpairs, spectrum_slicing
 from grainmodes.stages.packings import compress_block
 
 
@@ -53,14 +53,16 @@ def test_a_sample_with_two_grains_at_one_place_fails_alone():
 
 def test_a_crystal_has_every_eigenvalue_as_often_as_it_is_counted():
     """Lanczos with one vector sees one mode of each multiplet of the waves ±q."""
-    eigenproblem = problem(crystal(7, 8, 0.95), elastic("hertz", 0.5))
-    shift = eigenproblem.shift()
+    eigenproblem = Eigenproblem.from_packing(crystal(7, 8, 0.95), elastic("hertz", 0.5))
+    shift = eigenproblem.symmetric_shift()
     low, high = 0.05, 0.35
     modes = shift.factor_at(high).n_below - shift.factor_at(low).n_below
     values, vectors = naive_failures.eigenpairs_near(shift, 0.2, 60, 1)
     sound = np.linalg.norm(eigenproblem.matrix @ vectors - vectors * values, axis=0) < 1e-8
     assert np.count_nonzero(sound & (values > low) & (values < high)) < 0.5 * modes
-    found = spectrum_slicing.eigenpairs(shift, spectrum_slicing.Window(low, high, modes))
+    found = slice_eigenpairs.eigenpairs_in_slice(
+        shift, spectrum_slicing.SpectralSlice(low, high, modes)
+    )
     lapack = np.linalg.eigvalsh(eigenproblem.matrix.toarray())
     inside = lapack[(lapack >= low) & (lapack < high)]
     np.testing.assert_allclose(found.values, inside, atol=1e-14)

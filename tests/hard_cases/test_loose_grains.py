@@ -15,7 +15,7 @@ from grainmodes.relaxation import rattlers as rattlers_out
 from grainmodes.relaxation.frictionless import relax_fast
 from grainmodes.relaxation.newton import newton
 from grainmodes.response.moduli import rigidity
-from grainmodes.spectrum import problem
+from grainmodes.spectrum import Eigenproblem
 
 SOLID = reference(ELASTIC[3])[1]
 SMALL = 0.05
@@ -80,7 +80,7 @@ def test_what_is_loose_does_not_change_g(places, kt):
     expected = rigidity(SOLID, interaction).unloaded.g
     g, lowest = naive_failures.with_all_grains(packing, interaction)
     assert np.isnan(g) or lowest < -1e-6 or abs(g / expected - 1.0) > 1e-5
-    assert problem(packing, interaction).size == (3 if kt else 2) * SOLID.n
+    assert Eigenproblem.from_packing(packing, interaction).size == (3 if kt else 2) * SOLID.n
     assert rigidity(packing, interaction).unloaded.g == pytest.approx(expected, rel=1e-13)
 
 
@@ -107,6 +107,8 @@ def test_a_loose_contact_is_let_go_at_once(places, monkeypatch):
 def test_two_contacts_may_hold_a_grain_by_friction():
     """At a threshold of 1 the grain in the cusp stays, and adds its three modes."""
     interaction, packing = elastic("hertz", 0.1), crowded(*CASES["two contacts"])
-    assert problem(packing, interaction, threshold=1).size == 3 * (SOLID.n + 1)
-    lowest = np.linalg.eigvalsh(problem(packing, interaction, threshold=1).matrix.toarray())[2]
+    assert Eigenproblem.from_packing(packing, interaction, threshold=1).size == 3 * (SOLID.n + 1)
+    lowest = np.linalg.eigvalsh(
+        Eigenproblem.from_packing(packing, interaction, threshold=1).matrix.toarray()
+    )[2]
     assert lowest > 1e-3

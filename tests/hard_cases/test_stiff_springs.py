@@ -12,7 +12,7 @@ from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.response.mode_sum import mode_sum
 from grainmodes.response.moduli import AffineStep, rigidity
-from grainmodes.spectrum import dense, full_spectrum, problem, spectrum
+from grainmodes.spectrum import Eigenproblem, dense, full_spectrum, packing_spectrum
 
 PACKING = reference(ELASTIC[3])[1]
 STIFF = pytest.mark.parametrize("kt", [10.0, 1e3, 1e6])
@@ -21,7 +21,7 @@ STIFF = pytest.mark.parametrize("kt", [10.0, 1e3, 1e6])
 @pytest.mark.parametrize("kt", [1e3, 1e6])
 def test_zero_modes_are_those_of_the_rounding_of_the_matrix(kt):
     """An absolute edge of 1e-14 takes translations of stiff grains for vibrations."""
-    eigenproblem = problem(PACKING, elastic("hertz", kt))
+    eigenproblem = Eigenproblem.from_packing(PACKING, elastic("hertz", kt))
     lapack = dense.eigenvalues(eigenproblem)
     assert np.count_nonzero(np.abs(lapack) < 1e-14) < 2
     found = full_spectrum(eigenproblem, choices=SpectrumChoices("slicing")).eigenvalue
@@ -48,7 +48,7 @@ def test_the_unloaded_step_is_no_quadratic_form(kt):
 @STIFF
 def test_the_sum_over_modes_is_the_solve(kt):
     interaction = elastic("hertz", kt)
-    modes = spectrum(PACKING, interaction)
+    modes = packing_spectrum(PACKING, interaction)
     for loaded in (False, True):
         direct = getattr(rigidity(PACKING, interaction), "loaded" if loaded else "unloaded").g
         assert mode_sum(PACKING, interaction, modes, loaded=loaded).g == pytest.approx(

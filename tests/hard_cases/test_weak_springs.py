@@ -16,7 +16,13 @@ from grainmodes.packing.jacobian import stiffness_of
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.response.moduli import rigidity
-from grainmodes.spectrum import dense, full_spectrum, problem, spectrum_slicing
+from grainmodes.spectrum import (
+    Eigenproblem,
+    dense,
+    full_spectrum,
+    slice_eigenpairs,
+    spectrum_slicing,
+)
 
 SMALL = reference(MINIMAL[0])[1]
 WINDOWS = SpectrumChoices("slicing")
@@ -30,7 +36,7 @@ def sure(matrix: np.ndarray, value: float, rank: int, part: float) -> bool:
 
 @pytest.mark.parametrize(("kt", "lapack"), [(1e-10, 1e-9), (1e-12, 1e-7)])
 def test_soft_eigenvalues_keep_ten_digits(kt, lapack):
-    eigenproblem = problem(SMALL, elastic("hertz", kt))
+    eigenproblem = Eigenproblem.from_packing(SMALL, elastic("hertz", kt))
     matrix, rank = eigenproblem.matrix.toarray(), 2
     assert not sure(matrix, dense.eigenvalues(eigenproblem)[rank], rank, lapack)
     assert sure(matrix, full_spectrum(eigenproblem, choices=WINDOWS).eigenvalue[rank], rank, 1e-10)
@@ -38,13 +44,13 @@ def test_soft_eigenvalues_keep_ten_digits(kt, lapack):
 
 def test_a_space_that_exhausts_a_band_beside_a_gap_stays_orthogonal():
     """63 rotations at 1e-12, the next modes at 1e-3: W falls by 1e9 within a block."""
-    eigenproblem = problem(quenched(64, 0.9), elastic("hertz", 1e-12))
-    shift = eigenproblem.shift()
-    window = spectrum_slicing.Window(1.07e-12, 6.9e-12, 13)
+    eigenproblem = Eigenproblem.from_packing(quenched(64, 0.9), elastic("hertz", 1e-12))
+    shift = eigenproblem.symmetric_shift()
+    window = spectrum_slicing.SpectralSlice(1.07e-12, 6.9e-12, 13)
     values, vectors = naive_failures.eigenpairs_near(shift, 4e-12, 112, 16)
     inside = (values > window.low) & (values < window.high)
     assert residual(eigenproblem, values[inside], vectors[:, inside]) > 1e-6
-    found = spectrum_slicing.eigenpairs(shift, window)
+    found = slice_eigenpairs.eigenpairs_in_slice(shift, window)
     assert residual(eigenproblem, *found) < 1e-13
     np.testing.assert_allclose(found.vectors.T @ found.vectors, np.eye(13), atol=1e-12)
 
@@ -55,7 +61,7 @@ def residual(eigenproblem, values, vectors) -> float:
 
 
 def test_rotations_below_the_lowest_safe_edge_are_counted_as_zero_modes():
-    eigenproblem = problem(SMALL, elastic("hertz", 1e-16))
+    eigenproblem = Eigenproblem.from_packing(SMALL, elastic("hertz", 1e-16))
     lapack = dense.eigenvalues(eigenproblem)
     assert np.count_nonzero(lapack < 0.0) > 2
     found = full_spectrum(eigenproblem, choices=WINDOWS).eigenvalue
@@ -69,7 +75,7 @@ def test_rotations_of_a_step_have_a_limit(kt):
     interaction = elastic("hertz", kt)
     limit = rigidity(SMALL, elastic("hertz", 1e-7)).loaded.displacement
     found = rigidity(SMALL, interaction).loaded
-    eigenproblem = problem(SMALL, interaction)
+    eigenproblem = Eigenproblem.from_packing(SMALL, interaction)
     cut = np.linalg.pinv(eigenproblem.matrix.toarray(), rcond=1e-8, hermitian=True)
     spins = (cut @ (eigenproblem.matrix @ found.displacement.ravel()))[2::3]
     assert np.abs(limit[:, 2]).max() > 0.9 and np.abs(spins).max() < 1e-8

@@ -24,7 +24,7 @@ from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import forces_on_i, net_force
 from grainmodes.packing.jacobian import jacobian, stiffness_of
 from grainmodes.packing.state import Packing, find_contacts
-from grainmodes.spectrum import spectrum
+from grainmodes.spectrum import packing_spectrum
 
 R, KT, S = 0.91, 0.3, 0.02
 XI = 1.0 - R
@@ -90,7 +90,7 @@ def test_spectrum_of_two_grains(normal, angle):
     f, slope, k = force(normal)
     roll = 2 * np.array([[k - f / R, -k], [-k, k]])
     by_hand = np.sort([0.0, 0.0, 0.0, 2 * slope, *np.linalg.eigvalsh(roll)])
-    found = spectrum(pair(angle), elastic(normal, KT), keep_rattlers=True)
+    found = packing_spectrum(pair(angle), elastic(normal, KT), keep_rattlers=True)
     np.testing.assert_allclose(found.eigenvalue, by_hand, atol=1e-14)
 
 
@@ -103,7 +103,7 @@ def test_spectrum_of_a_triangle(normal, angle):
     shear = np.array([[1.5 * (slope + k - f / R), coupling], [coupling, k]])
     doublet = np.linalg.eigvalsh(shear)
     by_hand = [0.0, 0.0, 3 * slope, *np.linalg.eigvalsh(spin), *doublet, *doublet]
-    found = spectrum(triangle(angle), elastic(normal, KT), threshold=1)
+    found = packing_spectrum(triangle(angle), elastic(normal, KT), threshold=1)
     np.testing.assert_allclose(found.eigenvalue, np.sort(by_hand), atol=1e-14)
 
 
@@ -111,7 +111,7 @@ def test_spectrum_of_a_triangle(normal, angle):
 def test_spectrum_of_a_frictionless_triangle(normal):
     f, slope, _ = force(normal)
     shear = 1.5 * (slope - f / R)
-    found = spectrum(triangle(0.3), elastic(normal, 0.0), threshold=1)
+    found = packing_spectrum(triangle(0.3), elastic(normal, 0.0), threshold=1)
     by_hand = np.sort([0.0, 0.0, 3 * slope, -3 * f / R, shear, shear])
     np.testing.assert_allclose(found.eigenvalue, by_hand, atol=1e-14)
 

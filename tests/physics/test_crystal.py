@@ -23,7 +23,7 @@ from example_packings import crystal, elastic
 from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.state import find_contacts
 from grainmodes.response.moduli import rigidity
-from grainmodes.spectrum import spectrum
+from grainmodes.spectrum import packing_spectrum
 
 COLUMNS, ROWS = 7, 8
 KTS = (0.0, 1e-8, 1e-2, 1.0, 2.0, 10.0)
@@ -79,7 +79,7 @@ def test_loading_never_stiffens_by_relaxing(kt):
 
 
 def test_spectrum_is_degenerate_but_has_two_translations():
-    found = spectrum(crystal(COLUMNS, ROWS, 0.95), elastic("hertz", 0.5))
+    found = packing_spectrum(crystal(COLUMNS, ROWS, 0.95), elastic("hertz", 0.5))
     assert np.sum(np.abs(found.eigenvalue) < 1e-12) == 2
     assert found.eigenvalue[2] > 1e-3
     assert np.sum(np.diff(found.eigenvalue) < 1e-10) > len(found.eigenvalue) / 3
@@ -114,5 +114,5 @@ def test_modes_of_the_crystal_are_waves(normal, kt):
     packing = crystal(COLUMNS, ROWS, 0.95)
     a, b = packing.box_length / COLUMNS, packing.box_length / ROWS
     waves = [np.linalg.eigvalsh(wave_matrix(normal, a, b, kt, q)) for q in wave_vectors(a, b)]
-    found = spectrum(packing, elastic(normal, kt)).eigenvalue
+    found = packing_spectrum(packing, elastic(normal, kt)).eigenvalue
     np.testing.assert_allclose(found, np.sort(np.ravel(waves)), atol=1e-13)

@@ -22,13 +22,13 @@ from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import net_force, stress
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.response.moduli import rigidity
-from grainmodes.spectrum import spectrum
+from grainmodes.spectrum import packing_spectrum
 
 
 @pytest.mark.parametrize(("name", "kt"), every_kt_once(KTS))
 def test_exactly_two_zero_modes(name, kt):
     packing = reference(name)[1]
-    found = spectrum(packing, elastic(name, kt))
+    found = packing_spectrum(packing, elastic(name, kt))
     size, zero = np.abs(found.eigenvalue), np.argsort(np.abs(found.eigenvalue))[:2]
     assert size[zero].max() < 1e-14 * max(1.0, size.max())
     assert np.sort(size)[2] > 1e-3 * min(kt, 1.0)
@@ -40,7 +40,10 @@ def test_exactly_two_zero_modes(name, kt):
 @pytest.mark.parametrize("name", ELASTIC)
 def test_vanishing_friction_leaves_n_rotations(name):
     packing, kt = reference(name)[1], 1e-10
-    weak, bare = spectrum(packing, elastic(name, kt)), spectrum(packing, elastic(name, 0.0))
+    weak, bare = (
+        packing_spectrum(packing, elastic(name, kt)),
+        packing_spectrum(packing, elastic(name, 0.0)),
+    )
     rotations = weak.psi_rotational > 0.99
     assert rotations.sum() == packing.n
     assert np.abs(weak.eigenvalue[rotations]).max() < 100 * kt
@@ -51,7 +54,7 @@ def test_vanishing_friction_leaves_n_rotations(name):
 @pytest.mark.parametrize("kt", [1e-8, 1e-2, 1.0])
 def test_fractions_of_every_mode_add_up(kt):
     packing = reference(ELASTIC[4])[1]
-    found = spectrum(packing, elastic("harmonic", kt))
+    found = packing_spectrum(packing, elastic("harmonic", kt))
     translation = np.sum(found.modes.reshape(packing.n, 3, -1)[:, :2] ** 2, axis=(0, 1))
     np.testing.assert_allclose(translation + found.psi_rotational, 1.0, atol=1e-12)
     assert found.psi_rotational.sum() == pytest.approx(packing.n, abs=1e-9)
@@ -85,7 +88,7 @@ def everything(packing: Packing, interaction) -> dict[str, np.ndarray]:
     contacts, moduli, modes = (
         find_contacts(packing),
         rigidity(packing, interaction),
-        spectrum(packing, interaction),
+        packing_spectrum(packing, interaction),
     )
     return {
         "stress": stress(packing, contacts, interaction),

@@ -24,7 +24,7 @@ from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.newton import newton
 from grainmodes.response.moduli import Moduli, rigidity
-from grainmodes.spectrum import spectrum
+from grainmodes.spectrum import packing_spectrum
 
 HERTZ, HARMONIC = ELASTIC[3], ELASTIC[5]
 KT = 1.0
@@ -228,7 +228,7 @@ def test_imaginary_part_of_an_eigenpair():
     data, packing = reference(SHEARED)
     interaction = Interaction.from_law(smoothed_coulomb(data))
     matrix = jacobian(packing, find_contacts(packing), interaction)
-    found = spectrum(packing, interaction)
+    found = packing_spectrum(packing, interaction)
     pair = np.argmax(found.eigenvalue.imag)
     value, mode = found.eigenvalue[pair], found.modes[:, pair]
     assert value.imag > 1e-4

@@ -14,7 +14,7 @@ from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.protocols.compression.trajectory import compress_to, place_at_random
 from grainmodes.response.moduli import rigidity
-from grainmodes.spectrum import spectrum
+from grainmodes.spectrum import packing_spectrum
 
 COMPRESSED = [
     # n, seed, pressure, g unloaded, g loaded
@@ -57,7 +57,7 @@ def test_stored_packings_keep_their_numbers(name):
     packing, interaction = reference(name)[1], elastic(name, 1.0)
     contacts = find_contacts(packing)
     assert not rattlers(contacts, packing.n, 2).any()
-    found = spectrum(packing, interaction)
+    found = packing_spectrum(packing, interaction)
     pressure = -np.trace(stress(packing, contacts, interaction)) / 2
     numbers = [pressure, len(contacts.i), found.eigenvalue.sum(), found.participation_ratio.mean()]
     np.testing.assert_allclose(numbers, STORED[name], rtol=1e-6)

@@ -29,7 +29,7 @@ from grainmodes.packing.state import Packing, find_contacts, on_all_grains
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.response.mode_sum import mode_sum
 from grainmodes.response.moduli import rigidity
-from grainmodes.spectrum import Problem, problem, spectrum, spectrum_slicing
+from grainmodes.spectrum import Eigenproblem, packing_spectrum, slice_eigenpairs
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,9 @@ def mode_sum_field(packing: Packing, interaction: Interaction, threshold: int = 
         ValueError: J is not symmetric.
     """
     gone = _rattlers(packing, threshold)
-    modes = spectrum(packing, interaction, threshold, choices=SpectrumChoices(method="dense"))
+    modes = packing_spectrum(
+        packing, interaction, threshold, choices=SpectrumChoices(method="dense")
+    )
     return on_all_grains(mode_sum(packing, interaction, modes, threshold).displacement, gone)
 
 
@@ -82,7 +84,7 @@ def nearest_modes(
             "expected a symmetric Jacobian for single modes, got one with springs (s other than 0)"
         )
     gone = _rattlers(packing, threshold)
-    of = problem(packing, interaction, threshold)
+    of = Eigenproblem.from_packing(packing, interaction, threshold)
     pairs = [_nearest(of, frequency**2) for frequency in frequencies]
     values, vectors = np.array([value for value, _ in pairs]), np.array([r for _, r in pairs])
     return NearestModes(
@@ -92,9 +94,9 @@ def nearest_modes(
     )
 
 
-def _nearest(of: Problem, shift: float) -> tuple[float, np.ndarray]:
+def _nearest(of: Eigenproblem, shift: float) -> tuple[float, np.ndarray]:
     """The eigenpair nearest a shift that is no translation; its largest component is positive."""
-    (value,), vectors = spectrum_slicing.nearest(of.shift(), shift, 1)
+    (value,), vectors = slice_eigenpairs.nearest_eigenpairs(of.symmetric_shift(), shift, 1)
     vector = vectors[:, 0]
     return value, vector * np.sign(vector[np.argmax(np.abs(vector))])
 

@@ -16,13 +16,13 @@ import numpy as np
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing, backbone, find_contacts
 from grainmodes.response.moduli import AffineStep, Moduli
-from grainmodes.spectrum import Spectrum
+from grainmodes.spectrum import FullSpectrum
 
 
 def mode_sum(
     packing: Packing,
     interaction: Interaction,
-    spectrum: Spectrum,
+    spectrum: FullSpectrum,
     threshold: int = 2,
     loaded: bool = False,
 ) -> Moduli:
@@ -59,7 +59,7 @@ class ModeRigidity:
         """g_A of the unloaded step."""
         return self._unloaded.moduli(np.zeros(len(self.forces))).g_affine
 
-    def contributions(self, spectrum: Spectrum) -> np.ndarray:
+    def contributions(self, spectrum: FullSpectrum) -> np.ndarray:
         """g_NA of every mode (M,), k_N d^(1/2); 0 for the translations.
 
         Raises:

@@ -1,38 +1,16 @@
-"""Eigenvalues and modes of the Jacobian: counted, in windows, in bins, or all at once."""
+"""Eigenvalues and modes of the Jacobian: counted in bins, by spectrum slicing, or all at once."""
 
-from __future__ import annotations
-
-import numpy as np
-
-from grainmodes.kernels.laws import Interaction
-from grainmodes.packing.state import Packing
 from grainmodes.parameters.spectra import SpectrumChoices
-from grainmodes.spectrum.binned_averages import Bands, band_averages
-from grainmodes.spectrum.full import Spectrum, full_spectrum
-from grainmodes.spectrum.problem import Problem, problem
+from grainmodes.spectrum.binned_averages import BinnedAverages, average_in_bins
+from grainmodes.spectrum.eigenproblem import Eigenproblem
+from grainmodes.spectrum.full import FullSpectrum, full_spectrum, packing_spectrum
 
 __all__ = [
-    "Bands",
-    "Problem",
-    "Spectrum",
+    "BinnedAverages",
+    "Eigenproblem",
+    "FullSpectrum",
     "SpectrumChoices",
-    "band_averages",
+    "average_in_bins",
     "full_spectrum",
-    "problem",
-    "spectrum",
+    "packing_spectrum",
 ]
-
-
-def spectrum(
-    packing: Packing,
-    interaction: Interaction,
-    threshold: int = 2,
-    keep_rattlers: bool = False,
-    modes: bool = True,
-    forces: np.ndarray | None = None,
-    choices: SpectrumChoices = SpectrumChoices(),
-) -> Spectrum:
-    """The whole spectrum of a packing: `full_spectrum` of its `problem`."""
-    return full_spectrum(
-        problem(packing, interaction, threshold, keep_rattlers), modes, forces, choices
-    )

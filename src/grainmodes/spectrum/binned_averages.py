@@ -1,144 +1,179 @@
 """Averages over bins of frequency at any N: exact counts, ψ^R and p with their errors.
 
-| what     | how, in a bin of many modes                            | error                        |
-| -------- | ------------------------------------------------------ | ---------------------------- |
-| number   | counts at its edges (`counting`)                       | none                         |
-| mean ψ^R | counts in two shifts (`counting`)                      | of chance and of step        |
-| mean p   | modes nearest to a few shifts spread over the bin      | scatter between these groups |
+| what     | how, in a bin of many modes                         | error                      |
+| -------- | --------------------------------------------------- | -------------------------- |
+| number   | inertia counts at its edges (`inertia_counts`)      | none                       |
+| mean ψ^R | inertia counts in two shifts (`inertia_counts`)     | of chance and of cell size |
+| mean p   | modes nearest to a few shifts spread over the bin   | scatter between the groups |
 
-A bin of few modes (at most `modes_per_bin`) gets all its eigenpairs and no error; so does every bin
-of a matrix small enough for LAPACK.
+In a bin of few modes (at most `modes_per_bin`) all eigenpairs are computed, and the means have no
+error. The same holds for every bin of a matrix that is small enough for LAPACK.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import stdtrit
 
+from grainmodes.linalg.symmetric_shift import SymmetricShift
 from grainmodes.parameters.spectra import DENSE_COUNTS_UP_TO, DENSE_MODES_UP_TO, SpectrumChoices
-from grainmodes.spectrum import dense, spectrum_slicing
-from grainmodes.spectrum.inertia_counts import Sums, counts, rotational_sums
+from grainmodes.spectrum import dense, slice_eigenpairs
+from grainmodes.spectrum.eigenproblem import Eigenproblem
+from grainmodes.spectrum.inertia_counts import BinSums, count_below, rotational_sums
 from grainmodes.spectrum.measures import participation_ratio, rotational_fraction
-from grainmodes.spectrum.problem import Problem
+from grainmodes.spectrum.spectrum_slicing import CountedShift, SpectralSlice, shift_at_count
 
-GROUPS = 8
-"""Shifts in a bin around which modes are sampled."""
+SAMPLED_GROUPS = 8
+"""Number of shifts in a bin around which modes are sampled."""
 
-TWO_SIGMA = 0.9772499
-"""Part of a normal distribution below two standard deviations."""
+TWO_SIGMA_QUANTILE = 0.9772499
+"""Probability that a normal variable is less than two standard deviations above its mean."""
 
 
 @dataclass(frozen=True)
-class Bands:
-    """Modes in bins of ω; the averages are None if not asked for, NaN in an empty bin.
+class BinnedAverages:
+    """Modes in bins of ω; the averages are None if not requested, NaN in an empty bin.
 
-    `edge` (B + 1,) 1/t_0; `count` (B,) int; `below`: modes below the first edge, zero modes
-    included; `modes`: all modes. `psi_rotational`, `participation_ratio` (B,) with their standard
-    errors.
+    `edge` (B + 1,) 1/t_0; `count` (B,) int; `below`: number of modes below the first edge, zero
+    modes included; `modes`: number of all modes. `psi_rotational` and `participation_ratio` (B,)
+    with their standard errors.
     """
 
-    edge: np.ndarray
-    count: np.ndarray
+    edge: NDArray[np.float64]
+    count: NDArray[np.int64]
     below: int
     modes: int
-    psi_rotational: np.ndarray | None = None
-    psi_rotational_error: np.ndarray | None = None
-    participation_ratio: np.ndarray | None = None
-    participation_ratio_error: np.ndarray | None = None
+    psi_rotational: NDArray[np.float64] | None = None
+    psi_rotational_error: NDArray[np.float64] | None = None
+    participation_ratio: NDArray[np.float64] | None = None
+    participation_ratio_error: NDArray[np.float64] | None = None
     method: str = "dense"
     factorisation: str = "none"
 
 
-def band_averages(
-    problem: Problem,
-    edges: np.ndarray,
+def average_in_bins(
+    eigenproblem: Eigenproblem,
+    edges: NDArray[np.float64],
     averages: bool,
     choices: SpectrumChoices = SpectrumChoices(),
-) -> Bands:
-    """Modes in the bins between `edges` (B + 1,) 1/t_0, with or without averages of ψ^R and p.
+) -> BinnedAverages:
+    """The modes in bins of frequency, with or without averages of ψ^R and p.
+
+    Args:
+        edges: (B + 1,) of the bins, 1/t_0, ascending, above zero.
+        averages: whether ψ^R and p are averaged.
 
     Raises:
-        ValueError: J is not symmetric: a frequency is then no square root of an eigenvalue.
+        ValueError: J is not symmetric: a frequency is then not the root of an eigenvalue.
+        ZeroPivotError: J − ω² is singular however ω² is changed.
+        SliceError: eigenpairs did not converge.
+        numpy.linalg.LinAlgError: LAPACK did not converge.
     """
-    if not problem.symmetric:
+    if not eigenproblem.symmetric:
         raise ValueError(
-            "expected a symmetric Jacobian for bins of frequency, got one with springs"
+            "bins of frequency: expected a symmetric Jacobian, got springs with s != 0"
         )
     limit = DENSE_MODES_UP_TO if averages else DENSE_COUNTS_UP_TO
-    small = choices.method == "auto" and problem.size <= limit
+    small = choices.method == "auto" and eigenproblem.size <= limit
     if small or choices.method == "dense":
-        return _dense(problem, edges, averages)
-    shift = problem.shift(choices.factorisation)
-    below = counts(shift, edges)
-    count = np.diff(below)
-    given = {"method": "inertia_counts", "factorisation": shift.backend}
+        return _from_dense(eigenproblem, edges, averages)
+    shift = eigenproblem.symmetric_shift(choices.factorisation)
+    n_below = count_below(shift, edges)
+    columns: dict[str, Any] = {"method": "inertia_counts", "factorisation": shift.backend}
     if averages:
-        given |= _averages(shift, problem, edges, below, choices)
-    return Bands(edges, count, int(below[0]), problem.size, **given)
+        columns |= _averages(shift, eigenproblem, edges, n_below, choices)
+    return BinnedAverages(edges, np.diff(n_below), int(n_below[0]), eigenproblem.size, **columns)
 
 
-def _dense(problem: Problem, edges: np.ndarray, averages: bool) -> Bands:
-    values, vectors = dense.eigenpairs(problem) if averages else (dense.eigenvalues(problem), None)
-    below = np.searchsorted(values, edges**2)
-    count = np.diff(below)
-    given = {}
+def _from_dense(
+    eigenproblem: Eigenproblem, edges: NDArray[np.float64], averages: bool
+) -> BinnedAverages:
     if averages:
-        weight = _weight(problem, vectors)
-        for name, of in (
+        values, vectors = dense.eigenpairs(eigenproblem)
+    else:
+        values = dense.eigenvalues(eigenproblem)
+    n_below = np.searchsorted(values, edges**2)
+    count = np.diff(n_below)
+    columns: dict[str, Any] = {}
+    if averages:
+        weight = _weight(eigenproblem, vectors)
+        for name, measure in (
             ("psi_rotational", rotational_fraction),
             ("participation_ratio", participation_ratio),
         ):
-            total = np.diff(np.append(0.0, np.cumsum(of(weight)))[below])
-            given |= _named(name, _mean(Sums(total, np.zeros(len(total))), count))
-    return Bands(edges, count, int(below[0]), problem.size, **given)
+            total = np.diff(np.append(0.0, np.cumsum(measure(weight)))[n_below])
+            columns |= _named(name, _mean(BinSums(total, np.zeros(len(total))), count))
+    return BinnedAverages(edges, count, int(n_below[0]), eigenproblem.size, **columns)
 
 
-def _weight(problem: Problem, vectors: np.ndarray) -> np.ndarray:
-    return vectors.reshape(problem.size // problem.k, problem.k, -1) ** 2
+def _weight(eigenproblem: Eigenproblem, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """|R|² of modes (kN, M) as (N, k, M)."""
+    return vectors.reshape(eigenproblem.size // eigenproblem.k, eigenproblem.k, -1) ** 2
 
 
-def _averages(shift, problem: Problem, edges, below, choices: SpectrumChoices) -> dict:
-    count = np.diff(below)
-    psi = _mean(rotational_sums(shift, below, edges, problem.k, choices.cells_per_bin), count)
-    p = np.full((2, len(count)), np.nan)
+def _averages(
+    shift: SymmetricShift,
+    eigenproblem: Eigenproblem,
+    edges: NDArray[np.float64],
+    n_below: NDArray[np.int64],
+    choices: SpectrumChoices,
+) -> dict[str, NDArray[np.float64]]:
+    """Mean ψ^R and mean p of every bin, with their errors."""
+    count = np.diff(n_below)
+    sums = rotational_sums(shift, n_below, edges, eigenproblem.k, choices.cells_per_bin)
+    psi, p = _mean(sums, count), np.full((2, len(count)), np.nan)
     for number in np.flatnonzero(count):
         low, high = edges[number : number + 2] ** 2
         if count[number] <= choices.modes_per_bin:
-            window = spectrum_slicing.Window(low, high, int(count[number]))
-            weight = _weight(problem, spectrum_slicing.eigenpairs(shift, window).vectors)
+            interval = SpectralSlice(low, high, int(count[number]))
+            found = slice_eigenpairs.eigenpairs_in_slice(shift, interval)
+            weight = _weight(eigenproblem, found.vectors)
             psi[:, number] = rotational_fraction(weight).mean(), 0.0
             p[:, number] = participation_ratio(weight).mean(), 0.0
         else:
-            ends = (low, below[number]), (high, below[number + 1])
-            p[:, number] = _sampled(shift, problem, *ends, choices.modes_per_bin, int(number))
+            start = CountedShift(low, n_below[number])
+            stop = CountedShift(high, n_below[number + 1])
+            modes, seed = choices.modes_per_bin, int(number)
+            p[:, number] = _sampled(shift, eigenproblem, start, stop, modes, seed)
     return _named("psi_rotational", psi) | _named("participation_ratio", p)
 
 
-def _sampled(shift, problem: Problem, start, stop, modes: int, seed: int) -> tuple[float, float]:
-    """Mean p of a bin, and its standard error, from groups of modes at stratified ranks."""
-    (low, below_low), (high, below_high) = start, stop
-    at = (np.arange(GROUPS) + np.random.default_rng(seed).random(GROUPS)) / GROUPS
-    group = max(1, modes // GROUPS)
+def _sampled(
+    shift: SymmetricShift,
+    eigenproblem: Eigenproblem,
+    start: CountedShift,
+    stop: CountedShift,
+    modes: int,
+    seed: int,
+) -> tuple[float, float]:
+    """Mean p of a bin, and its standard error, from groups of modes around stratified ranks."""
+    draws = np.random.default_rng(seed).random(SAMPLED_GROUPS)
+    part = (np.arange(SAMPLED_GROUPS) + draws) / SAMPLED_GROUPS
+    group = max(1, modes // SAMPLED_GROUPS)
     means = []
-    for rank in below_low + (below_high - below_low) * at:
-        sigma, _ = spectrum_slicing.between(shift, start, stop, rank, slack=0.5 * group)
-        found = spectrum_slicing.nearest(shift, sigma, group)
-        inside = (found.values >= low) & (found.values < high)
+    for rank in start.n_below + (stop.n_below - start.n_below) * part:
+        sigma, _ = shift_at_count(shift, start, stop, rank, tolerance=0.5 * group)
+        found = slice_eigenpairs.nearest_eigenpairs(shift, sigma, group)
+        inside = (found.values >= start.sigma) & (found.values < stop.sigma)
         if inside.any():
-            means.append(participation_ratio(_weight(problem, found.vectors[:, inside])).mean())
+            weight = _weight(eigenproblem, found.vectors[:, inside])
+            means.append(participation_ratio(weight).mean())
     if len(means) < 2:
         return means[0] if means else np.nan, np.inf
-    # Few groups: two errors hold as much of Student's t as two of the normal law.
-    spread = np.std(means, ddof=1) / np.sqrt(len(means))
-    return np.mean(means), 0.5 * stdtrit(len(means) - 1, TWO_SIGMA) * spread
+    # Two errors then hold as much of Student's t, which few groups follow, as of the normal law.
+    scatter = np.std(means, ddof=1) / np.sqrt(len(means))
+    return np.mean(means), 0.5 * stdtrit(len(means) - 1, TWO_SIGMA_QUANTILE) * scatter
 
 
-def _mean(sums: Sums, count: np.ndarray) -> np.ndarray:
+def _mean(sums: BinSums, count: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Mean of every bin and its error, (2, B)."""
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where(count > 0, np.array(sums) / count, np.nan)
 
 
-def _named(name: str, mean: np.ndarray) -> dict[str, np.ndarray]:
+def _named(name: str, mean: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
     return {name: mean[0], f"{name}_error": mean[1]}

@@ -1,234 +1,173 @@
-"""Eigenpairs beyond the size of dense matrices: the spectrum in windows, each certified complete.
+"""Spectrum slicing: the spectrum of a symmetric J in slices of about 150 eigenvalues each.
 
-Counts split the spectrum into windows [low, high) of about `WINDOW` modes. One factorisation at the
-middle of a window and block Lanczos (`lanczos`) give its eigenpairs; the counts at its two ends say
-how many there must be, so that none is missed and none is found twice. Windows know nothing of each
-other: they are computed in any order, by any number of processes, with the same result.
+Inertia counts (`linalg.symmetric_shift`) split an interval of λ into slices [low, high) of known
+numbers of eigenvalues. The eigenpairs of a slice (`slice_eigenpairs`) are then certified complete:
+their number must be the difference of the counts at its two ends. A slice is easy to solve if its
+eigenvalues do not lie beside a much denser group, and if its ends differ by less than a decade.
+
+| symbol     | name            | meaning                                                      |
+| ---------- | --------------- | ------------------------------------------------------------ |
+| σ, n(σ)    | CountedShift    | a shift in k_N d^(1/2), and the number of eigenvalues below  |
+| [low, high) | SpectralSlice  | an interval of λ in k_N d^(1/2), and its number of modes     |
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
-from multiprocessing import get_context
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.linalg.block_lanczos import Eigenpairs, KrylovSpace
 from grainmodes.linalg.symmetric_shift import SymmetricShift
-from grainmodes.spectrum.problem import Problem
 
-WINDOW = 150
-"""Modes of a window where the basis of its Krylov space fits into the cache; elsewhere 60."""
+SLICE_MODES = 150
+"""Largest number of modes in a slice, where the basis of its Krylov space fits into the cache."""
 
-LARGE = 30_000
-"""Degrees of freedom from which windows are the smaller ones."""
+LARGE_MATRIX_SLICE_MODES = 60
+"""The same for a matrix of `LARGE_MATRIX_SIZE` rows or more."""
 
-BLOCK = 16
-"""Vectors of a Lanczos block."""
+LARGE_MATRIX_SIZE = 30_000
+"""Number of rows from which slices are the smaller ones."""
 
-FIRST, LARGEST = 3.3, 7.0
-"""Dimensions of the Krylov space per mode: when the first look is taken, and when we give up."""
+COUNT_TOLERANCE = 0.1
+"""Largest difference between the count at the end of a slice and its target, in slices."""
 
-SLACK = 0.1
-"""How far, in parts of a window, the count at its end may be from what was aimed at."""
+MAX_NEIGHBOUR_RATIO = 4
+"""Largest number of eigenvalues within twice the half-width of a slice, per eigenvalue in it.
 
-CROWD = 4
-"""Eigenvalues within twice the half-width of a window, per mode of it, that block Lanczos can still
-tell apart from those inside; an even density has 2."""
+Up to this ratio block Lanczos separates the eigenvalues of the slice from those beside it. An even
+density has the ratio 2."""
 
-LOOSE = 1.05
-"""Ratio of the outermost ends of all windows to the outermost eigenvalues, at most."""
+NEIGHBOUR_ALLOWANCE = 64
+"""Number of eigenvalues that may lie there in addition, however few the slice holds: they fit into
+four blocks of Lanczos vectors."""
 
-WIDE = 10.0
-"""Largest ratio of the ends of a window: an eigenvalue keeps 1e-16 of the larger one."""
+OUTER_END_RATIO = 1.05
+"""Largest ratio between an outermost end of all slices and the outermost eigenvalue."""
 
-RESOLUTION = 1e-12
-"""Relative width below which an interval is not divided further: a degenerate eigenvalue."""
+MAX_END_RATIO = 10.0
+"""Largest ratio of the ends of a slice: an eigenvalue keeps 1e-16 of the larger end."""
 
-
-class WindowError(ArithmeticError):
-    """The eigenpairs found in a window are not those counted."""
+MIN_RELATIVE_WIDTH = 1e-12
+"""Relative width below which an interval is not split: it holds a degenerate eigenvalue."""
 
 
-class Window(NamedTuple):
-    """Eigenvalues from `low` to below `high`, of which there are `modes`."""
+class CountedShift(NamedTuple):
+    """A shift σ, and the number of eigenvalues of J below it."""
+
+    sigma: float
+    n_below: int
+
+
+class SpectralSlice(NamedTuple):
+    """An interval [low, high) of eigenvalues λ, and the number of modes in it."""
 
     low: float
     high: float
     modes: int
 
 
-def split(shift: SymmetricShift, low: float, high: float) -> list[Window]:
-    """Windows that hold all eigenvalues of [low, high), ascending; 0 < low < high."""
-    size = WINDOW if shift.size < LARGE else WINDOW * 2 // 5
-    start, stop = (low, shift.factor_at(low).n_below), (high, shift.factor_at(high).n_below)
-    if stop[1] <= start[1]:
+def count_at(shift: SymmetricShift, sigma: float) -> CountedShift:
+    """A shift with the number of eigenvalues below it.
+
+    Raises:
+        ZeroPivotError: J − σ is singular however σ is changed.
+    """
+    return CountedShift(sigma, shift.factor_at(sigma).n_below)
+
+
+def slice_spectrum(shift: SymmetricShift, low: float, high: float) -> list[SpectralSlice]:
+    """Slices that hold all eigenvalues of [low, high), ascending.
+
+    Args:
+        low, high: λ in k_N d^(1/2), 0 < low < high.
+
+    Raises:
+        ZeroPivotError: as `count_at`.
+    """
+    size = SLICE_MODES if shift.size < LARGE_MATRIX_SIZE else LARGE_MATRIX_SLICE_MODES
+    start, stop = count_at(shift, low), count_at(shift, high)
+    if stop.n_below <= start.n_below:
         return []
-    return list(_split(shift, *_tightened(shift, start, stop), size))
+    return list(_slices(shift, *_tightened(shift, start, stop), size))
 
 
-def _tightened(shift: SymmetricShift, start, stop):
-    """The ends of an interval moved to where its lowest and highest eigenvalue are."""
-    (low, below_low), (high, below_high) = start, stop
+def _tightened(
+    shift: SymmetricShift, start: CountedShift, stop: CountedShift
+) -> tuple[CountedShift, CountedShift]:
+    """The interval with its ends moved next to its lowest and its highest eigenvalue."""
+    (low, n_below_low), (high, n_below_high) = start, stop
     inner = high
-    while inner > LOOSE * low:
+    while inner > OUTER_END_RATIO * low:
         middle = np.sqrt(low * inner)
-        low, inner = (
-            (middle, inner) if shift.factor_at(middle).n_below == below_low else (low, middle)
-        )
+        empty = shift.factor_at(middle).n_below == n_below_low
+        low, inner = (middle, inner) if empty else (low, middle)
     inner = low
-    while high > LOOSE * inner:
+    while high > OUTER_END_RATIO * inner:
         middle = np.sqrt(high * inner)
-        high, inner = (
-            (middle, inner) if shift.factor_at(middle).n_below == below_high else (high, middle)
-        )
-    return (low, below_low), (high, below_high)
+        empty = shift.factor_at(middle).n_below == n_below_high
+        high, inner = (middle, inner) if empty else (high, middle)
+    return CountedShift(low, n_below_low), CountedShift(high, n_below_high)
 
 
-def _split(shift: SymmetricShift, start, stop, size: int) -> Iterator[Window]:
-    (low, below_low), (high, below_high) = start, stop
-    modes = below_high - below_low
+def _slices(
+    shift: SymmetricShift, start: CountedShift, stop: CountedShift, size: int
+) -> Iterator[SpectralSlice]:
+    """Split an interval until every part holds at most `size` eigenvalues and is easy to solve."""
+    low, high = start.sigma, stop.sigma
+    modes = stop.n_below - start.n_below
     if not modes:
         return
     pieces = -(-modes // size)
-    if high > WIDE * low:
-        middle = np.sqrt(low * high), shift.factor_at(np.sqrt(low * high)).n_below
-    elif pieces > 1 and high - low > RESOLUTION * high:
-        aim = below_low + modes * (pieces // 2) / pieces
-        middle = between(shift, start, stop, aim, SLACK * size)
-    elif _crowded(shift, low, high, modes):
-        middle = 0.5 * (low + high), shift.factor_at(0.5 * (low + high)).n_below
+    if high > MAX_END_RATIO * low:
+        middle = count_at(shift, np.sqrt(low * high))
+    elif pieces > 1 and high - low > MIN_RELATIVE_WIDTH * high:
+        target = start.n_below + modes * (pieces // 2) / pieces
+        middle = shift_at_count(shift, start, stop, target, COUNT_TOLERANCE * size)
+    elif _has_dense_neighbours(shift, low, high, modes):
+        middle = count_at(shift, 0.5 * (low + high))
     else:
-        yield Window(low, high, modes)
+        yield SpectralSlice(low, high, modes)
         return
-    yield from _split(shift, start, middle, size)
-    yield from _split(shift, middle, stop, size)
+    yield from _slices(shift, start, middle, size)
+    yield from _slices(shift, middle, stop, size)
 
 
-def _crowded(shift: SymmetricShift, low: float, high: float, modes: int) -> bool:
-    """Whether many eigenvalues lie just outside: those of a window beside a band are hard."""
+def _has_dense_neighbours(shift: SymmetricShift, low: float, high: float, modes: int) -> bool:
+    """Whether many eigenvalues lie just outside: the few inside would hardly be separated."""
     width = high - low
-    if width <= RESOLUTION * high:
+    if width <= MIN_RELATIVE_WIDTH * high:
         return False
-    around = (
-        shift.factor_at(high + 0.5 * width).n_below
-        - shift.factor_at(max(low - 0.5 * width, low / 2)).n_below
-    )
-    return around > CROWD * modes + CROWD * BLOCK
+    above = shift.factor_at(high + 0.5 * width).n_below
+    below = shift.factor_at(max(low - 0.5 * width, low / 2)).n_below
+    return above - below > MAX_NEIGHBOUR_RATIO * modes + NEIGHBOUR_ALLOWANCE
 
 
-def between(shift: SymmetricShift, start, stop, aim: float, slack: float) -> tuple[float, int]:
-    """A shift with about `aim` eigenvalues below it, and how many there are.
+def shift_at_count(
+    shift: SymmetricShift,
+    start: CountedShift,
+    stop: CountedShift,
+    target: float,
+    tolerance: float,
+) -> CountedShift:
+    """A shift between two others with about `target` eigenvalues below it, by interpolation.
 
-    `start` and `stop` are shifts with their counts; the next one is interpolated between them.
+    Args:
+        start, stop: shifts with different counts, start.n_below ≤ target ≤ stop.n_below.
+        tolerance: largest difference between its count and `target`; it may be larger where many
+            eigenvalues lie within `MIN_RELATIVE_WIDTH`.
+
+    Raises:
+        ZeroPivotError: as `count_at`.
     """
-    (low, below_low), (high, below_high) = start, stop
+    (low, n_below_low), (high, n_below_high) = start, stop
     while True:
-        part = min(0.9, max(0.1, (aim - below_low) / (below_high - below_low)))
+        part = min(0.9, max(0.1, (target - n_below_low) / (n_below_high - n_below_low)))
         middle = np.sqrt(low * high) if high > 4.0 * low else low + part * (high - low)
         count = shift.factor_at(middle).n_below
-        if abs(count - aim) <= slack or high - low <= RESOLUTION * high:
-            return float(middle), count
-        if count < aim:
-            low, below_low = middle, count
+        if abs(count - target) <= tolerance or high - low <= MIN_RELATIVE_WIDTH * high:
+            return CountedShift(float(middle), count)
+        if count < target:
+            low, n_below_low = middle, count
         else:
-            high, below_high = middle, count
-
-
-def eigenpairs(shift: SymmetricShift, window: Window, seed: int = 0) -> Eigenpairs:
-    """All eigenpairs of a window, ascending; one that resists is halved.
-
-    Raises:
-        WindowError: the pairs found are not as many as the counts say.
-    """
-    low, high, modes = window
-    sigma = 0.5 * (low + high)
-    krylov = KrylovSpace(
-        shift.factor_at(sigma), sigma, _block(shift), int(LARGEST * modes) + 12 * BLOCK, seed
-    )
-    below = shift.n_below
-    krylov.grow(int(FIRST * modes) + BLOCK)
-    while True:
-        ritz = krylov.ritz_pairs()
-        inside = np.flatnonzero((ritz.values >= low) & (ritz.values < high))
-        if len(inside) == modes and ritz.converged[inside].all():
-            return krylov.eigenpairs(ritz, inside)
-        if krylov.is_full:
-            break
-        krylov.grow(krylov.size + 3 * BLOCK)
-    if high - low <= RESOLUTION * high:
-        raise WindowError(
-            f"{np.count_nonzero(ritz.converged[inside])} eigenpairs converged between {low} and "
-            f"{high}, where {modes} were counted"
-        )
-    lower = below - shift.factor_at(low).n_below
-    halves = Window(low, sigma, lower), Window(sigma, high, modes - lower)
-    parts = [eigenpairs(shift, half, seed) for half in halves if half.modes]
-    return Eigenpairs(*(np.concatenate(columns, axis=-1) for columns in zip(*parts, strict=True)))
-
-
-def _block(shift: SymmetricShift) -> int:
-    """Vectors of a block: fewer where so many would soon exhaust the space."""
-    return max(2, min(BLOCK, shift.size // 40))
-
-
-def nearest(shift: SymmetricShift, sigma: float, modes: int, seed: int = 0) -> Eigenpairs:
-    """The `modes` eigenpairs nearest σ, ascending, the known zero modes left out.
-
-    Raises:
-        WindowError: they did not converge.
-    """
-    largest = int(LARGEST * modes) + 16 * BLOCK
-    krylov = KrylovSpace(shift.factor_at(sigma), sigma, _block(shift), largest, seed)
-    krylov.grow(int(FIRST * modes) + 2 * BLOCK)
-    while True:
-        ritz = krylov.ritz_pairs()
-        close = np.argsort(np.abs(ritz.values - sigma), kind="stable")[:modes]
-        if len(close) == modes and ritz.converged[close].all():
-            return krylov.eigenpairs(ritz, close)
-        if krylov.is_full:
-            found = np.count_nonzero(ritz.converged[close])
-            raise WindowError(f"{found} of {modes} eigenpairs nearest {sigma} converged")
-        krylov.grow(krylov.size + 2 * BLOCK)
-
-
-def measured(
-    problem: Problem,
-    backend: str,
-    windows: list[Window],
-    measure: Callable[[np.ndarray, np.ndarray], tuple],
-    processes: int = 1,
-) -> list[tuple]:
-    """`measure(values, vectors)` of every window, in their order; vectors are not kept.
-
-    Raises:
-        WindowError: the pairs found in a window are not as many as the counts say.
-        MemoryError: a process died.
-    """
-    if processes == 1:
-        shift = problem.shift(backend)
-        return [measure(*eigenpairs(shift, window)) for window in windows]
-    given = problem, backend, measure
-    with ProcessPoolExecutor(processes, get_context("spawn"), _Worker.start, given) as pool:
-        try:
-            return list(pool.map(_Worker.run, windows))
-        except BrokenProcessPool as error:
-            raise MemoryError("a process that computes windows was killed") from error
-
-
-class _Worker:
-    """A process with a factorisation of its own."""
-
-    shift: SymmetricShift
-    measure: Callable
-
-    @classmethod
-    def start(cls, problem: Problem, backend: str, measure) -> None:
-        cls.shift, cls.measure = problem.shift(backend), measure
-
-    @classmethod
-    def run(cls, window: Window):
-        return cls.measure(*eigenpairs(cls.shift, window))
+            high, n_below_high = middle, count

@@ -35,7 +35,7 @@ from grainmodes.protocols.shear.step_strain import forward_rigidity
 from grainmodes.relaxation.accuracy import step_orders
 from grainmodes.response.mode_sum import ModeRigidity
 from grainmodes.response.stability import complex_pairs
-from grainmodes.spectrum import spectrum
+from grainmodes.spectrum import packing_spectrum
 from grainmodes.stages.rows import SAMPLE_ERRORS, response_block
 from grainmodes.stages.samples import jammed_packing, seed_of
 
@@ -138,7 +138,7 @@ def _frictional(
 def translational_rigidity(packing: Packing, interaction: Interaction, threshold: int) -> float:
     """g where the modes with ψ^T > 1/2 alone respond."""
     by_mode = ModeRigidity(packing, interaction, threshold)
-    found = spectrum(packing, interaction, threshold, forces=by_mode.forces)
+    found = packing_spectrum(packing, interaction, threshold, forces=by_mode.forces)
     translational = found.psi_rotational < 0.5
     return by_mode.g_affine + float(by_mode.contributions(found)[translational].sum())
 

@@ -25,7 +25,13 @@ from grainmodes.parameters.factors import FACTORISATIONS
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.spectra import BINNED, SPECTRUM_METHODS, SpectrumChoices
 from grainmodes.response.mode_sum import ModeRigidity
-from grainmodes.spectrum import Bands, Problem, Spectrum, band_averages, full_spectrum, problem
+from grainmodes.spectrum import (
+    BinnedAverages,
+    Eigenproblem,
+    FullSpectrum,
+    average_in_bins,
+    full_spectrum,
+)
 from grainmodes.stages.rows import response_block
 from grainmodes.stages.samples import jammed_packing
 from grainmodes.statistics.binning import fixed_edges
@@ -47,14 +53,16 @@ def spectrum_block(
         packing, jammed = jammed_packing(packings, number, interaction)
         if not jammed:
             return _nothing(kind, edges, _columns(packing, law))
-        of = problem(packing, interaction, threshold)
+        eigenproblem = Eigenproblem.from_packing(packing, interaction, threshold)
         if kind in BINNED:
-            return _bins(band_averages(of, edges, kind == "binned_averages", choices), kind)
-        if kind == "eigenvalues" or not of.symmetric:
-            found = full_spectrum(of, kind == "modes", None, choices, processes)
+            return _bins(
+                average_in_bins(eigenproblem, edges, kind == "binned_averages", choices), kind
+            )
+        if kind == "eigenvalues" or not eigenproblem.symmetric:
+            found = full_spectrum(eigenproblem, kind == "modes", None, choices, processes)
             return _modes(found, _columns(packing, law), kind)
         by_mode = ModeRigidity(packing, interaction, threshold)
-        found = full_spectrum(of, True, by_mode.forces, choices, processes)
+        found = full_spectrum(eigenproblem, True, by_mode.forces, choices, processes)
         shares = by_mode.contributions(found)
         return _modes(found, _columns(packing, law), kind) | {
             "g_mode_sum": by_mode.g_affine + float(shares.sum())
@@ -71,8 +79,8 @@ def rattlers_block(
 
     def sample(number: int) -> dict[str, object]:
         packing, _ = jammed_packing(packings, number, interaction)
-        of = problem(packing, interaction, keep_rattlers=True)
-        found = full_spectrum(of, kind == "modes", None, choices, processes)
+        eigenproblem = Eigenproblem.from_packing(packing, interaction, keep_rattlers=True)
+        found = full_spectrum(eigenproblem, kind == "modes", None, choices, processes)
         row = _modes(found, _columns(packing, law), kind)
         kept = ("eigenvalue", "psi_rotational", "participation_ratio", "mode_count")
         renamed = {f"{name}_rattlers": row[name] for name in kept if name in row}
@@ -97,8 +105,8 @@ def hessian_block(
             count = np.zeros(len(edges) - 1, dtype=int)
             if jammed:
                 matrix = effective_hessian(grains, find_contacts(grains), interaction, stiffness)
-                of = Problem(matrix, matrix.shape[0] // grains.n, symmetric=True)
-                count = band_averages(of, edges, False, choices).count
+                eigenproblem = Eigenproblem(matrix, matrix.shape[0] // grains.n, symmetric=True)
+                count = average_in_bins(eigenproblem, edges, False, choices).count
             row[f"bin_count_{name}"] = count
         return row
 
@@ -125,7 +133,7 @@ def _how(method: str, factorisation: str) -> dict[str, object]:
     }
 
 
-def _modes(found: Spectrum, columns: int, kind: str) -> dict[str, object]:
+def _modes(found: FullSpectrum, columns: int, kind: str) -> dict[str, object]:
     """A row of eigenvalues, with imaginary parts only where J is not symmetric."""
     values = found.eigenvalue
     row = {"eigenvalue": _padded(values.real, columns), "mode_count": len(values)}
@@ -138,7 +146,7 @@ def _modes(found: Spectrum, columns: int, kind: str) -> dict[str, object]:
     return row | _how(found.method, found.factorisation)
 
 
-def _bins(found: Bands, kind: str) -> dict[str, object]:
+def _bins(found: BinnedAverages, kind: str) -> dict[str, object]:
     row = {
         "bin_edge": found.edge,
         "bin_count": found.count,
@@ -156,10 +164,12 @@ def _nothing(kind: str, edges: np.ndarray, columns: int) -> dict[str, object]:
     """The row of a packing that is not jammed: it has no modes."""
     none = np.zeros(0)
     if kind not in BINNED:
-        row = _modes(Spectrum(none, none, none, 0.0, method="auto"), columns, kind)
+        row = _modes(FullSpectrum(none, none, none, 0.0, method="auto"), columns, kind)
         return row | ({"g_mode_sum": 0.0} if kind == "modes" else {})
     bins, empty = len(edges) - 1, np.full(len(edges) - 1, np.nan)
-    nothing = Bands(edges, np.zeros(bins, int), 0, 0, empty, empty, empty, empty, method="auto")
+    nothing = BinnedAverages(
+        edges, np.zeros(bins, int), 0, 0, empty, empty, empty, empty, method="auto"
+    )
     return _bins(nothing, kind)
 
 

@@ -29,7 +29,7 @@ from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation.newton import moved_by, newton
 from grainmodes.response.moduli import rigidity
-from grainmodes.spectrum import problem, spectrum
+from grainmodes.spectrum import Eigenproblem, packing_spectrum
 
 
 class Logistic(NamedTuple):
@@ -130,12 +130,17 @@ def test_its_jacobian_is_central_differences_of_the_forces(name, slip):
 @each_slip
 def test_its_spectrum_is_that_of_the_differences(name, slip):
     interaction, packing = OUTSIDE[name][0], crowd(53, slip=slip)
-    found = spectrum(packing, interaction, keep_rattlers=True)
+    found = packing_spectrum(packing, interaction, keep_rattlers=True)
     expected = np.sort_complex(np.linalg.eigvals(differences(packing, interaction)))
     np.testing.assert_allclose(np.sort_complex(found.eigenvalue), expected, atol=1e-7)
     assert found.residual < 1e-13
     if not slip:
-        below = problem(packing, interaction, keep_rattlers=True).shift().factor_at(0.25).n_below
+        below = (
+            Eigenproblem.from_packing(packing, interaction, keep_rattlers=True)
+            .symmetric_shift()
+            .factor_at(0.25)
+            .n_below
+        )
         assert below == np.count_nonzero(expected.real < 0.25)
 
 

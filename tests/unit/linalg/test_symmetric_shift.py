@@ -9,7 +9,7 @@ from example_packings import BACKENDS, MINIMAL, elastic, quenched, reference
 from grainmodes.linalg import backends, pardiso
 from grainmodes.linalg.factorisation import ZeroPivotError
 from grainmodes.linalg.symmetric_shift import SymmetricShift
-from grainmodes.spectrum import dense, problem
+from grainmodes.spectrum import Eigenproblem, dense
 
 KAPPAS = (1e-10, 1e-8, 1e-4, 1.0, 10.0)
 EDGES = np.geomspace(1e-6, 3.0, 160) ** 2
@@ -27,7 +27,7 @@ def interleaved(problem) -> np.ndarray:
 @pytest.mark.parametrize("rank", [2, 10])
 def test_counts_change_where_the_exact_ones_do(kt, rank):
     """To 1e-13 of an eigenvalue, however small: at k_T = 1e-10 the dense one is good to 1e-6."""
-    eigenproblem = problem(reference(MINIMAL[0])[1], elastic(MINIMAL[0], kt))
+    eigenproblem = Eigenproblem.from_packing(reference(MINIMAL[0])[1], elastic(MINIMAL[0], kt))
     shift, matrix = SymmetricShift(eigenproblem.matrix), eigenproblem.matrix.toarray()
     low, high = bracket(shift, dense.eigenvalues(eigenproblem)[rank])
     below = shift.factor_at(low).n_below
@@ -57,7 +57,7 @@ def compare_with_dense(n: int, phi: float, kt: float, backend: str) -> None:
     """Counts without rattlers and with them."""
     packing = quenched(n, phi)
     for keep in (False, True):
-        eigenproblem = problem(packing, elastic("hertz", kt), keep_rattlers=keep)
+        eigenproblem = Eigenproblem.from_packing(packing, elastic("hertz", kt), keep_rattlers=keep)
         shift, values = (
             SymmetricShift(eigenproblem.matrix, backend),
             dense.eigenvalues(eigenproblem),
@@ -78,7 +78,7 @@ def test_counts_equal_the_dense_ones_for_a_thousand_grains(phi, kt, backend):
 @pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("kt", [1e-10, 1.0])
 def test_solutions_solve(kt, backend):
-    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", kt))
+    eigenproblem = Eigenproblem.from_packing(quenched(256, 0.90), elastic("hertz", kt))
     shift = SymmetricShift(eigenproblem.matrix, backend).factor_at(0.3)
     right = np.random.default_rng(0).standard_normal((eigenproblem.size, 5))
     shifted = eigenproblem.matrix - 0.3 * sparse.eye_array(eigenproblem.size)
@@ -88,7 +88,7 @@ def test_solutions_solve(kt, backend):
 
 @pytest.mark.skipif("pardiso" not in BACKENDS, reason="PARDISO is not installed")
 def test_factorisations_agree():
-    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
+    eigenproblem = Eigenproblem.from_packing(quenched(256, 0.90), elastic("hertz", 1e-4))
     one, other = (SymmetricShift(eigenproblem.matrix, name) for name in ("superlu", "pardiso"))
     assert (one.backend, other.backend) == ("superlu", "pardiso")
     assert [one.factor_at(e).n_below for e in EDGES] == [other.factor_at(e).n_below for e in EDGES]
@@ -101,7 +101,7 @@ def test_factorisations_agree():
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_two_factorisations_live_side_by_side(backend):
     interaction = elastic("hertz", 1e-4)
-    matrices = [problem(quenched(n, 0.90), interaction).matrix for n in (64, 256)]
+    matrices = [Eigenproblem.from_packing(quenched(n, 0.90), interaction).matrix for n in (64, 256)]
     alone = [SymmetricShift(matrix, backend).factor_at(0.3).n_below for matrix in matrices]
     shifts = [SymmetricShift(matrix, backend).factor_at(0.3) for matrix in matrices]
     right = np.ones(shifts[0].size)
@@ -112,11 +112,11 @@ def test_two_factorisations_live_side_by_side(backend):
 
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_counts_are_right_where_a_leading_part_is_singular(backend):
-    eigenproblem = problem(quenched(128, 0.86), elastic("hertz", 1.0))
-    values, shift = dense.eigenvalues(eigenproblem), eigenproblem.shift("superlu")
+    eigenproblem = Eigenproblem.from_packing(quenched(128, 0.86), elastic("hertz", 1.0))
+    values, shift = dense.eigenvalues(eigenproblem), eigenproblem.symmetric_shift("superlu")
     order = shift.factor_at(0.5)._factors._order
     leading = eigenproblem.matrix[order][:, order].toarray()
-    shift = eigenproblem.shift(backend)
+    shift = eigenproblem.symmetric_shift(backend)
     for size in (1, 2, 3, 5, 9, 17):
         for sigma in np.linalg.eigvalsh(leading[:size, :size]):
             if np.abs(values / sigma - 1.0).min() > 1e-6:

@@ -10,7 +10,7 @@ from grainmodes.packing.forces import net_force
 from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.spectrum import dense, problem
+from grainmodes.spectrum import Eigenproblem, dense
 from measurements.accuracy import compression_step, kernel_polynomial, loops, precision, spectrum
 from measurements.accuracy import seeds as seeds_module
 from measurements.accuracy.diagram import Apart, Size
@@ -26,15 +26,13 @@ def errors_of(rows) -> dict[tuple[str, float], float]:
 def here(monkeypatch):
     """Nothing is measured in a process of its own, nor more than once."""
     for module in (compression_step, precision, seeds_module, spectrum):
-        monkeypatch.setattr(
-            module, "apart", lambda eigenproblem, *given: Apart(eigenproblem(*given), 0.0, 1.0)
-        )
+        monkeypatch.setattr(module, "apart", lambda find, *given: Apart(find(*given), 0.0, 1.0))
     monkeypatch.setattr(spectrum, "LEAST", 0.0)
 
 
 def problem_at(kappa: float, n: int = 16):
     """The eigenproblem of a small packing."""
-    return problem(quenched(n, 0.9), Interaction.from_law(ContactLaw(kt=kappa)))
+    return Eigenproblem.from_packing(quenched(n, 0.9), Interaction.from_law(ContactLaw(kt=kappa)))
 
 
 def test_a_coarse_compression_jams_at_a_lower_grid_point(monkeypatch):

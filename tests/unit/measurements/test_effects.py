@@ -31,7 +31,13 @@ from grainmodes.protocols.shear.run import Walk
 from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation import newton
 from grainmodes.response.moduli import rigidity
-from grainmodes.spectrum import band_averages, dense, full_spectrum, problem, spectrum_slicing
+from grainmodes.spectrum import (
+    Eigenproblem,
+    average_in_bins,
+    dense,
+    full_spectrum,
+    slice_eigenpairs,
+)
 
 NO_FRICTION = Interaction.from_law(ContactLaw())
 FRICTION = Interaction.from_law(ContactLaw(kt=1e-2))
@@ -100,7 +106,7 @@ def test_without_friction_nothing_tangential_is_touched(monkeypatch):
     assert net_force(packing, find_contacts(packing), NO_FRICTION).shape == (16, 2)
     assert rigidity(packing, NO_FRICTION).unloaded.displacement.shape[1] == 2
     assert step_strain(packing, NO_FRICTION, StepStrain()).converged
-    assert problem(packing, NO_FRICTION).k == 2
+    assert Eigenproblem.from_packing(packing, NO_FRICTION).k == 2
     walk = Walk.start(packing, NO_FRICTION, Shear(1e-3))
     while not walk.done:
         walk.advance()
@@ -117,7 +123,7 @@ def test_springs_never_loaded_are_not_stored_and_take_the_symmetric_way(monkeypa
     assert contacts.spring_state is None
     assert net_force(packing, contacts, FRICTION).shape == (36, 3)
     assert np.isfinite(rigidity(packing, FRICTION).loaded.g)
-    eigenproblem = problem(packing, FRICTION)
+    eigenproblem = Eigenproblem.from_packing(packing, FRICTION)
     assert eigenproblem.symmetric and eigenproblem.k == 3
     for modes in (False, True):
         assert full_spectrum(eigenproblem, modes).eigenvalue.dtype == float
@@ -135,7 +141,11 @@ def bytes_of(packing: Packing) -> int:
     return sum(array.nbytes for array in held)
 
 
-VECTORS = ((dense, "eigenpairs"), (spectrum_slicing, "eigenpairs"), (spectrum_slicing, "nearest"))
+VECTORS = (
+    (dense, "eigenpairs"),
+    (slice_eigenpairs, "eigenpairs_in_slice"),
+    (slice_eigenpairs, "nearest_eigenpairs"),
+)
 
 
 @pytest.mark.parametrize("interaction", [NO_FRICTION, FRICTION], ids=["frictionless", "frictional"])
@@ -143,20 +153,20 @@ VECTORS = ((dense, "eigenpairs"), (spectrum_slicing, "eigenpairs"), (spectrum_sl
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_counts_need_no_eigenvector(monkeypatch, interaction, method, backend):
     eigenproblem, choices = (
-        problem(quenched(36, 0.92), interaction),
+        Eigenproblem.from_packing(quenched(36, 0.92), interaction),
         SpectrumChoices(method, backend),
     )
-    by_vectors = band_averages(eigenproblem, EDGES, True, choices).count
+    by_vectors = average_in_bins(eigenproblem, EDGES, True, choices).count
     refuse(monkeypatch, *VECTORS)
-    found = band_averages(eigenproblem, EDGES, False, choices)
+    found = average_in_bins(eigenproblem, EDGES, False, choices)
     np.testing.assert_array_equal(found.count, by_vectors)
     assert found.psi_rotational is None and found.participation_ratio is None
     with pytest.raises(AssertionError, match="not called for"):
-        band_averages(eigenproblem, EDGES, True, choices)
+        average_in_bins(eigenproblem, EDGES, True, choices)
 
 
 def test_eigenvalues_need_no_eigenvector(monkeypatch):
-    eigenproblem = problem(quenched(36, 0.92), FRICTION)
+    eigenproblem = Eigenproblem.from_packing(quenched(36, 0.92), FRICTION)
     refuse(monkeypatch, *VECTORS)
     found = full_spectrum(eigenproblem, modes=False)
     assert len(found.eigenvalue) == eigenproblem.size

@@ -21,7 +21,7 @@ from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import relaxed_steps
 from grainmodes.protocols.shear.step_strain_field import simulated_field
 from grainmodes.response.fields import affine_field, mode_sum_field, nearest_modes, nonaffine_field
-from grainmodes.spectrum import full, spectrum
+from grainmodes.spectrum import full, packing_spectrum
 from grainmodes.stages import fields
 from grainmodes.stages.fields import fields_block
 from grainmodes.stages.rows import block_of
@@ -141,7 +141,10 @@ def test_rattlers_have_no_field_and_change_none():
 def test_single_modes_are_those_of_the_dense_spectrum(name, kt):
     packing, interaction = reference(name)[1], elastic(name, kt)
     frequencies = (1e-4, 1.3e-2, 0.5, 1.0)
-    found, dense = nearest_modes(packing, interaction, frequencies), spectrum(packing, interaction)
+    found, dense = (
+        nearest_modes(packing, interaction, frequencies),
+        packing_spectrum(packing, interaction),
+    )
     elastic_ones = np.argsort(np.abs(dense.eigenvalue))[2:]
     for mode, frequency in enumerate(frequencies):
         distance = np.abs(dense.eigenvalue[elastic_ones] - frequency**2)

@@ -27,7 +27,7 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.response.mode_sum import ModeRigidity, elastic_modes, mode_sum
 from grainmodes.response.moduli import affine_displacement, relative, rigidity
-from grainmodes.spectrum import spectrum
+from grainmodes.spectrum import packing_spectrum
 
 PARTS = ("g_affine", "g_nonaffine")
 MODE_SUM_KTS = (0.0, 1e-8, 1e-4, 1e-2, 1.0, 2.0, 10.0)
@@ -80,7 +80,7 @@ def test_sum_over_the_modes_of_the_spectrum(name, kt, loaded):
     packing, interaction = reference(name)[1], elastic(name, kt)
     direct = rigidity(packing, interaction)
     direct = direct.loaded if loaded else direct.unloaded
-    summed = mode_sum(packing, interaction, spectrum(packing, interaction), loaded=loaded)
+    summed = mode_sum(packing, interaction, packing_spectrum(packing, interaction), loaded=loaded)
     np.testing.assert_array_equal(summed.affine, direct.affine)
     np.testing.assert_allclose(summed.nonaffine, direct.nonaffine, rtol=1e-8, atol=1e-11)
     # The eigenvalues of the rotational band, and with them its spins, are right to 1e-16 / kt.
@@ -199,7 +199,7 @@ def test_a_sum_over_modes_that_are_not_known_is_refused():
     packing, interaction = reference(MINIMAL[0])[1], elastic("hertz", 1e-15)
     by_mode = ModeRigidity(packing, interaction)
     choices = SpectrumChoices("slicing")
-    found = spectrum(packing, interaction, forces=by_mode.forces, choices=choices)
+    found = packing_spectrum(packing, interaction, forces=by_mode.forces, choices=choices)
     with pytest.raises(ArithmeticError, match="below the lowest safe edge"):
         by_mode.contributions(found)
 
@@ -210,7 +210,9 @@ def test_windows_and_dense_modes_give_the_same_sum(kt):
     by_mode = ModeRigidity(packing, interaction)
     sums = [
         by_mode.contributions(
-            spectrum(packing, interaction, forces=by_mode.forces, choices=SpectrumChoices(method))
+            packing_spectrum(
+                packing, interaction, forces=by_mode.forces, choices=SpectrumChoices(method)
+            )
         ).sum()
         for method in ("dense", "slicing")
     ]

@@ -8,8 +8,8 @@ import pytest
 from example_packings import BACKENDS, elastic, quenched
 from grainmodes.linalg.symmetric_shift import SymmetricShift
 from grainmodes.parameters.spectra import SpectrumChoices
-from grainmodes.spectrum import band_averages, binned_averages, problem
-from grainmodes.spectrum.inertia_counts import counts, rotational_sums
+from grainmodes.spectrum import Eigenproblem, average_in_bins, binned_averages
+from grainmodes.spectrum.inertia_counts import count_below, rotational_sums
 from grainmodes.statistics.binning import fixed_edges
 
 FINE = fixed_edges(1e-4, 0.1)
@@ -19,10 +19,10 @@ COUNTING = SpectrumChoices("inertia_counts")
 @pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("kt", [0.0, 1e-8, 1e-4, 1.0])
 def test_bins_of_few_modes_are_exact(kt, backend):
-    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", kt))
+    eigenproblem = Eigenproblem.from_packing(quenched(256, 0.90), elastic("hertz", kt))
     edges = fixed_edges(kt, 0.1)
-    counted = band_averages(eigenproblem, edges, True, SpectrumChoices("inertia_counts", backend))
-    whole = band_averages(eigenproblem, edges, True, SpectrumChoices("dense"))
+    counted = average_in_bins(eigenproblem, edges, True, SpectrumChoices("inertia_counts", backend))
+    whole = average_in_bins(eigenproblem, edges, True, SpectrumChoices("dense"))
     assert (counted.method, whole.method) == ("inertia_counts", "dense")
     np.testing.assert_array_equal(counted.count, whole.count)
     assert counted.below + counted.count.sum() == counted.modes == eigenproblem.size
@@ -34,9 +34,13 @@ def test_bins_of_few_modes_are_exact(kt, backend):
 
 
 def test_the_cheapest_method_is_chosen_by_size():
-    small = band_averages(problem(quenched(64, 0.90), elastic("hertz", 1e-4)), FINE, False)
+    small = average_in_bins(
+        Eigenproblem.from_packing(quenched(64, 0.90), elastic("hertz", 1e-4)), FINE, False
+    )
     assert (small.method, small.factorisation) == ("dense", "none")
-    large = band_averages(problem(quenched(1024, 0.90), elastic("hertz", 1e-4)), FINE, False)
+    large = average_in_bins(
+        Eigenproblem.from_packing(quenched(1024, 0.90), elastic("hertz", 1e-4)), FINE, False
+    )
     assert large.method == "inertia_counts"
 
 
@@ -46,12 +50,14 @@ def cases():
     found = {"psi": [], "p": []}
     for kt in (1e-2, 0.1, 1.0, 10.0):
         for seed in range(2):
-            eigenproblem = problem(quenched(256, 0.90, seed), elastic("hertz", kt))
+            eigenproblem = Eigenproblem.from_packing(
+                quenched(256, 0.90, seed), elastic("hertz", kt)
+            )
             top = 1.05 * np.sqrt(eigenproblem.bound)
             edges = np.linspace(0.05, min(top, 1.2 * np.sqrt(1 + kt)), 9)
             choices = SpectrumChoices("inertia_counts", modes_per_bin=24)
-            stated = band_averages(eigenproblem, edges, True, choices)
-            truth = band_averages(eigenproblem, edges, True, SpectrumChoices("dense"))
+            stated = average_in_bins(eigenproblem, edges, True, choices)
+            truth = average_in_bins(eigenproblem, edges, True, SpectrumChoices("dense"))
             many = stated.count > choices.modes_per_bin
             for key, name in (("psi", "psi_rotational"), ("p", "participation_ratio")):
                 columns = (getattr(stated, name), getattr(stated, f"{name}_error"))
@@ -82,22 +88,22 @@ def test_errors_are_no_larger_than_they_must_be():
 @pytest.mark.parametrize("cells_per_bin", [1, 2, 3])
 def test_fractions_that_are_0_or_1_are_counted_exactly(cells_per_bin):
     """At k_T = 1e-8 a mode is a rotation or none: every crossing of the first leg is its own."""
-    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", 1e-8))
+    eigenproblem = Eigenproblem.from_packing(quenched(256, 0.90), elastic("hertz", 1e-8))
     shift, edges = SymmetricShift(eigenproblem.matrix), np.array([1e-6, 1e-3, 0.3, 0.8, 1.5])
-    below = counts(shift, edges)
+    below = count_below(shift, edges)
     sums = rotational_sums(shift, below, edges, 3, cells_per_bin)
     np.testing.assert_array_equal(sums.total, [below[1] - below[0], 0, 0, 0])
 
 
 def test_frictionless_modes_have_no_rotation():
-    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", 0.0))
-    found = band_averages(eigenproblem, fixed_edges(0.0, 0.05), True, COUNTING)
+    eigenproblem = Eigenproblem.from_packing(quenched(256, 0.90), elastic("hertz", 0.0))
+    found = average_in_bins(eigenproblem, fixed_edges(0.0, 0.05), True, COUNTING)
     assert np.nanmax(found.psi_rotational) == 0.0
 
 
 def test_a_jacobian_that_is_not_symmetric_is_refused():
-    eigenproblem = problem(quenched(64, 0.90), elastic("hertz", 1.0))
+    eigenproblem = Eigenproblem.from_packing(quenched(64, 0.90), elastic("hertz", 1.0))
     with pytest.raises(ValueError, match="symmetric"):
-        binned_averages.band_averages(
+        binned_averages.average_in_bins(
             type(eigenproblem)(eigenproblem.matrix, 3, False), FINE, False
         )

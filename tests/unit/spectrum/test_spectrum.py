@@ -19,7 +19,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.spectrum import spectrum
+from grainmodes.spectrum import packing_spectrum
 from grainmodes.spectrum.measures import participation_ratio, rotational_fraction
 
 GAP = 1e-6
@@ -29,7 +29,7 @@ GAP = 1e-6
 @pytest.mark.parametrize(("name", "kt"), every_kt_once(KTS))
 def test_reference_eigenvalues_and_rotational_fractions(name, kt):
     data, packing = reference(name)
-    data, found = data.sel(kt=kt), spectrum(packing, elastic(name, kt))
+    data, found = data.sel(kt=kt), packing_spectrum(packing, elastic(name, kt))
     np.testing.assert_allclose(found.eigenvalue, data["eigenvalue"], rtol=0, atol=1e-10)
     apart = isolated(found.eigenvalue)
     assert apart.mean() > 0.9
@@ -61,7 +61,10 @@ def sorted_pairs(values: np.ndarray) -> np.ndarray:
 def test_slip_makes_a_general_spectrum():
     data, packing = reference(SHEARED)
     interaction = Interaction.from_law(smoothed_coulomb(data))
-    found, alone = spectrum(packing, interaction), spectrum(packing, interaction, modes=False)
+    found, alone = (
+        packing_spectrum(packing, interaction),
+        packing_spectrum(packing, interaction, modes=False),
+    )
     matrix = jacobian(packing, find_contacts(packing), interaction).toarray()
     assert found.residual < 1e-13
     np.testing.assert_allclose(matrix @ found.modes, found.modes * found.eigenvalue, atol=1e-13)
@@ -76,7 +79,7 @@ def test_slip_makes_a_general_spectrum():
 @pytest.mark.parametrize("name", MINIMAL)
 def test_every_mode_by_a_directional_difference_of_the_slow_forces(name, kt):
     packing, law = reference(name)[1], ContactLaw(name.split("_")[0], "elastic", kt)
-    found = spectrum(packing, Interaction.from_law(law))
+    found = packing_spectrum(packing, Interaction.from_law(law))
     pairs = contacts_and_pairs(packing)[1]
     for value, mode in zip(found.eigenvalue, found.modes.T, strict=True):
         u = np.zeros((packing.n, 3))
@@ -90,7 +93,7 @@ def test_every_mode_by_a_directional_difference_of_the_slow_forces(name, kt):
 @pytest.mark.parametrize("kt", [0.0, 1e-4, 1.0])
 def test_modes_are_orthonormal_and_fractions_are_theirs(kt):
     packing = reference(ELASTIC[3])[1]
-    found = spectrum(packing, elastic("hertz", kt))
+    found = packing_spectrum(packing, elastic("hertz", kt))
     size = (3 if kt else 2) * packing.n
     np.testing.assert_allclose(found.modes.T @ found.modes, np.eye(size), atol=1e-13)
     weight = found.modes.reshape(packing.n, -1, size) ** 2
@@ -103,7 +106,10 @@ def test_modes_are_orthonormal_and_fractions_are_theirs(kt):
 
 def test_eigenvalues_alone_are_the_same_and_nothing_else():
     packing, interaction = reference(MINIMAL[0])[1], elastic("hertz", 0.1)
-    alone, full = spectrum(packing, interaction, modes=False), spectrum(packing, interaction)
+    alone, full = (
+        packing_spectrum(packing, interaction, modes=False),
+        packing_spectrum(packing, interaction),
+    )
     np.testing.assert_allclose(alone.eigenvalue, full.eigenvalue, atol=1e-14)
     nothing = (alone.psi_rotational, alone.participation_ratio, alone.residual, alone.modes)
     assert nothing == (None,) * 4
@@ -113,11 +119,11 @@ def test_rattlers_are_left_out_unless_asked_for():
     position = [[1.0, 1.0], [1.95, 1.0], [1.475, 1.8], [5.0, 5.0], [5.0, 2.0]]
     packing = Packing.from_positions(position, np.ones(5), 8.0)
     interaction = elastic("hertz", 0.5)
-    assert len(spectrum(packing, interaction, threshold=1).eigenvalue) == 9
-    kept = spectrum(packing, interaction, threshold=1, keep_rattlers=True)
+    assert len(packing_spectrum(packing, interaction, threshold=1).eigenvalue) == 9
+    kept = packing_spectrum(packing, interaction, threshold=1, keep_rattlers=True)
     assert len(kept.eigenvalue) == 15
     assert np.sum(kept.eigenvalue == 0.0) == 6
-    assert len(spectrum(packing, interaction, threshold=2).eigenvalue) == 0
+    assert len(packing_spectrum(packing, interaction, threshold=2).eigenvalue) == 0
 
 
 def test_participation_of_one_grain_and_of_all():

@@ -11,8 +11,14 @@ import exact
 from example_packings import BACKENDS, MINIMAL, elastic, quenched, reference
 from grainmodes.linalg.symmetric_shift import SymmetricShift
 from grainmodes.parameters.spectra import SpectrumChoices
-from grainmodes.spectrum import dense, full_spectrum, problem, spectrum_slicing
-from grainmodes.spectrum.spectrum_slicing import Window, WindowError
+from grainmodes.spectrum import Eigenproblem, dense, full_spectrum
+from grainmodes.spectrum.slice_eigenpairs import (
+    SliceError,
+    eigenpairs_in_slice,
+    measure_slices,
+    nearest_eigenpairs,
+)
+from grainmodes.spectrum.spectrum_slicing import SpectralSlice, slice_spectrum
 
 FLOOR = 1e-14
 
@@ -20,16 +26,16 @@ FLOOR = 1e-14
 @pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("kt", [1e-8, 1e-4, 1.0, 10.0])
 def test_windows_hold_every_mode_once(kt, backend):
-    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", kt))
-    windowed = full_spectrum(eigenproblem, choices=SpectrumChoices("slicing", backend))
+    eigenproblem = Eigenproblem.from_packing(quenched(256, 0.90), elastic("hertz", kt))
+    sliced = full_spectrum(eigenproblem, choices=SpectrumChoices("slicing", backend))
     whole = full_spectrum(eigenproblem, choices=SpectrumChoices("dense"))
-    assert (windowed.method, windowed.factorisation) == ("slicing", backend)
-    assert windowed.residual < 1e-9 * eigenproblem.bound
-    np.testing.assert_allclose(windowed.eigenvalue, whole.eigenvalue, atol=2e-14)
+    assert (sliced.method, sliced.factorisation) == ("slicing", backend)
+    assert sliced.residual < 1e-9 * eigenproblem.bound
+    np.testing.assert_allclose(sliced.eigenvalue, whole.eigenvalue, atol=2e-14)
     apart = isolated(whole.eigenvalue)
     assert apart.mean() > 0.6
     for name in ("psi_rotational", "participation_ratio"):
-        one, other = (getattr(found, name)[apart] for found in (windowed, whole))
+        one, other = (getattr(found, name)[apart] for found in (sliced, whole))
         np.testing.assert_allclose(one, other, atol=1e-7)
 
 
@@ -41,10 +47,10 @@ def isolated(values: np.ndarray) -> np.ndarray:
 
 
 def test_eigenvectors_of_all_windows_are_orthonormal():
-    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
+    eigenproblem = Eigenproblem.from_packing(quenched(256, 0.90), elastic("hertz", 1e-4))
     shift = SymmetricShift(eigenproblem.matrix)
-    parts = spectrum_slicing.split(shift, FLOOR, eigenproblem.bound)
-    vectors = np.hstack([spectrum_slicing.eigenpairs(shift, part).vectors for part in parts])
+    slices = slice_spectrum(shift, FLOOR, eigenproblem.bound)
+    vectors = np.hstack([eigenpairs_in_slice(shift, interval).vectors for interval in slices])
     assert vectors.shape == (eigenproblem.size, eigenproblem.size - 2)
     np.testing.assert_allclose(vectors.T @ vectors, np.eye(eigenproblem.size - 2), atol=1e-9)
 
@@ -52,7 +58,7 @@ def test_eigenvectors_of_all_windows_are_orthonormal():
 @pytest.mark.parametrize("kt", [1e-10, 1e-8])
 def test_small_eigenvalues_keep_their_relative_accuracy(kt):
     """Each lies between exact counts at λ (1 ± 1e-10), where LAPACK is good to 1e-6 at 1e-10."""
-    eigenproblem = problem(reference(MINIMAL[0])[1], elastic(MINIMAL[0], kt))
+    eigenproblem = Eigenproblem.from_packing(reference(MINIMAL[0])[1], elastic(MINIMAL[0], kt))
     values = full_spectrum(eigenproblem, choices=SpectrumChoices("slicing")).eigenvalue
     for rank in (2, 9):
         bounds = values[rank] * (1 + np.array([-1e-10, 1e-10]))
@@ -63,7 +69,7 @@ def test_small_eigenvalues_keep_their_relative_accuracy(kt):
 
 
 def test_windows_do_not_depend_on_the_number_of_processes():
-    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
+    eigenproblem = Eigenproblem.from_packing(quenched(256, 0.90), elastic("hertz", 1e-4))
     choices = SpectrumChoices("slicing")
     one, two = (full_spectrum(eigenproblem, choices=choices, processes=p) for p in (1, 2))
     for name in ("eigenvalue", "psi_rotational", "participation_ratio"):
@@ -73,29 +79,29 @@ def test_windows_do_not_depend_on_the_number_of_processes():
 def test_a_band_beside_a_gap_and_a_lonely_mode():
     values = np.concatenate([np.linspace(1.0, 1.1, 300), [2.0], np.linspace(50.0, 51.0, 40)])
     shift = SymmetricShift(sparse.csc_array(np.diag(values)))
-    parts = spectrum_slicing.split(shift, 0.5, 100.0)
-    found = np.concatenate([spectrum_slicing.eigenpairs(shift, part).values for part in parts])
+    slices = slice_spectrum(shift, 0.5, 100.0)
+    found = np.concatenate([eigenpairs_in_slice(shift, interval).values for interval in slices])
     np.testing.assert_allclose(found, values, rtol=1e-12)
 
 
 def test_a_degenerate_eigenvalue_is_found_as_often_as_it_is_counted():
     values = np.concatenate([np.full(12, 1.0), np.linspace(2.0, 3.0, 50)])
     shift = SymmetricShift(sparse.csc_array(np.diag(values)))
-    parts = spectrum_slicing.split(shift, 0.5, 4.0)
-    found = np.concatenate([spectrum_slicing.eigenpairs(shift, part).values for part in parts])
+    slices = slice_spectrum(shift, 0.5, 4.0)
+    found = np.concatenate([eigenpairs_in_slice(shift, interval).values for interval in slices])
     np.testing.assert_allclose(found, values, rtol=1e-12)
 
 
 def test_a_window_that_promises_too_much_is_refused():
     shift = SymmetricShift(sparse.csc_array(np.diag(np.arange(1.0, 40.0))))
-    with pytest.raises(WindowError, match="where 7 were counted"):
-        spectrum_slicing.eigenpairs(shift, Window(1.5, 1.5 + 1e-13, 7))
+    with pytest.raises(SliceError, match="expected 7 eigenpairs"):
+        eigenpairs_in_slice(shift, SpectralSlice(1.5, 1.5 + 1e-13, 7))
 
 
 def test_nearest_are_the_nearest():
-    eigenproblem = problem(quenched(256, 0.90), elastic("hertz", 1e-4))
+    eigenproblem = Eigenproblem.from_packing(quenched(256, 0.90), elastic("hertz", 1e-4))
     values = dense.eigenvalues(eigenproblem)
-    found = spectrum_slicing.nearest(SymmetricShift(eigenproblem.matrix), 0.31, 10)
+    found = nearest_eigenpairs(SymmetricShift(eigenproblem.matrix), 0.31, 10)
     expected = np.sort(values[np.argsort(np.abs(values - 0.31))[:10]])
     np.testing.assert_allclose(found.values, expected, rtol=1e-12)
     residual = eigenproblem.matrix @ found.vectors - found.vectors * found.values
@@ -103,22 +109,22 @@ def test_nearest_are_the_nearest():
 
 
 def test_negative_eigenvalues_are_found_too():
-    eigenproblem = problem(quenched(64, 0.90), elastic("hertz", 1.0))
-    weak = problem(quenched(64, 0.90), elastic("hertz", 1e-4))
+    eigenproblem = Eigenproblem.from_packing(quenched(64, 0.90), elastic("hertz", 1.0))
+    weak = Eigenproblem.from_packing(quenched(64, 0.90), elastic("hertz", 1e-4))
     unstable = replace(eigenproblem, matrix=(2.0 * weak.matrix - eigenproblem.matrix).tocsc())
     forces = np.random.default_rng(0).standard_normal((eigenproblem.size, 1))
-    windowed, whole = (
+    sliced, whole = (
         full_spectrum(unstable, forces=forces, choices=SpectrumChoices(method))
         for method in ("slicing", "dense")
     )
     assert np.count_nonzero(whole.eigenvalue < -0.1) > 10
-    np.testing.assert_allclose(windowed.eigenvalue, whole.eigenvalue, atol=1e-13)
+    np.testing.assert_allclose(sliced.eigenvalue, whole.eigenvalue, atol=1e-13)
     apart = np.abs(whole.eigenvalue) > 1e-3
     for name in ("psi_rotational", "participation_ratio"):
-        one, other = (getattr(found, name)[apart] for found in (windowed, whole))
+        one, other = (getattr(found, name)[apart] for found in (sliced, whole))
         np.testing.assert_allclose(one, other, atol=1e-7)
     np.testing.assert_allclose(
-        np.abs(windowed.projection[apart]), np.abs(whole.projection[apart]), atol=1e-6
+        np.abs(sliced.projection[apart]), np.abs(whole.projection[apart]), atol=1e-6
     )
 
 
@@ -127,7 +133,7 @@ def die(values, vectors):
 
 
 def test_a_process_that_dies_fails_its_sample():
-    eigenproblem = problem(quenched(64, 0.90), elastic("hertz", 1e-4))
-    parts = spectrum_slicing.split(eigenproblem.shift(), FLOOR, eigenproblem.bound)
+    eigenproblem = Eigenproblem.from_packing(quenched(64, 0.90), elastic("hertz", 1e-4))
+    slices = slice_spectrum(eigenproblem.symmetric_shift(), FLOOR, eigenproblem.bound)
     with pytest.raises(MemoryError, match="killed"):
-        spectrum_slicing.measured(eigenproblem, "superlu", parts, die, processes=2)
+        measure_slices(eigenproblem, "superlu", slices, die, processes=2)

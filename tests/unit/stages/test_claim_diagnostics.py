@@ -25,7 +25,7 @@ from grainmodes.relaxation.accuracy import step_orders
 from grainmodes.response.mode_sum import ModeRigidity, mode_sum
 from grainmodes.response.moduli import rigidity
 from grainmodes.response.stability import complex_pairs
-from grainmodes.spectrum import spectrum
+from grainmodes.spectrum import packing_spectrum
 from grainmodes.stages import claim_diagnostics
 from grainmodes.stages.rows import block_of
 from grainmodes.stages.samples import packed
@@ -84,10 +84,10 @@ def test_translational_modes_give_the_rigidity_of_weak_friction(name):
 
 def test_two_halves_of_the_modes_add_up():
     packing, interaction = reference(SMALL)[1], elastic(SMALL, KT)
-    found = spectrum(packing, interaction)
+    found = packing_spectrum(packing, interaction)
     half = found.psi_rotational < 0.5
     by_mode = ModeRigidity(packing, interaction)
-    shares = by_mode.contributions(spectrum(packing, interaction, forces=by_mode.forces))
+    shares = by_mode.contributions(packing_spectrum(packing, interaction, forces=by_mode.forces))
     whole = mode_sum(packing, interaction, found)
     assert 0 < half.sum() < len(half)
     assert shares.sum() == pytest.approx(whole.g_nonaffine, rel=1e-12)

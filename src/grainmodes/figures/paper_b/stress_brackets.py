@@ -40,8 +40,7 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         return rows
     place = {name: rows[name].iloc[0] for name in ("n", "phi", "kt", "seed")}
     strain, stress = (
-        variable(ensemble, f"coarse_{name}").sel(place).to_numpy()
-        for name in ("strain", "stress")
+        variable(ensemble, f"coarse_{name}").sel(place).to_numpy() for name in ("strain", "stress")
     )
     known = np.isfinite(strain) & (strain <= curve.strain[-1] + SAME)
     rows = rows.iloc[: np.count_nonzero(known)].copy()
