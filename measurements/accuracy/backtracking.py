@@ -24,8 +24,8 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.shear.first_event import steps
-from grainmodes.protocols.shear.run import Walk
+from grainmodes.protocols.shear.first_event import accepted_steps
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.relaxation.frictionless import relax_fast
 from grainmodes.stages.rows import SAMPLE_ERRORS
 from measurements.accuracy.diagram import FAILED, Diagram, Row, Sample, Size, apart, of, row, timed
@@ -104,11 +104,11 @@ def _sample(way: Way, width: float, packing: Packing, exact: float) -> Sample:
 def critical_strain(packing: Packing, interaction: Interaction, shear: Shear) -> float:
     """γ_c, the middle of the bracket of the first event; NaN where there is none."""
     try:
-        walk = Walk.start(packing, interaction, shear)
+        run = QuasistaticRun.from_packing(packing, interaction, shear)
     except SAMPLE_ERRORS:
         return math.nan
-    for before, after in steps(walk):
-        if walk.events:
+    for before, after in accepted_steps(run):
+        if run.events:
             return (before.strain + after.strain) / 2.0
     return math.nan
 

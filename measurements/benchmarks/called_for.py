@@ -22,7 +22,7 @@ from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing, backbone, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.shear.run import Walk
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import SKIN, STABILITY, UNLIMITED, relax_loosely
 from grainmodes.relaxation.newton import newton
@@ -119,8 +119,8 @@ def sheared(law: ContactLaw, n: int) -> Work:
     packing, interaction = unloaded(n), Interaction.from_law(law)
 
     def work():
-        walk = Walk.start(packing, interaction, Shear(1e-3, 1e-4, 1e-4))
-        while not walk.done and walk.advance():
+        run = QuasistaticRun.from_packing(packing, interaction, Shear(1e-3, 1e-4, 1e-4))
+        while not run.done and run.advance():
             pass
 
     return work

@@ -33,8 +33,8 @@ from grainmodes.protocols.compression.trajectory import (
 )
 from grainmodes.protocols.pair_tracking.detection import DETECTORS, seen_by
 from grainmodes.protocols.pair_tracking.tracking import PairWalk
-from grainmodes.protocols.shear.quasistatic import first_balance, step_to
-from grainmodes.protocols.shear.run import Walk
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
+from grainmodes.protocols.shear.strain_step import first_balance, step_to
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
 from grainmodes.response.moduli import rigidity
@@ -198,11 +198,11 @@ def pairs_along(n: int, detection: str, strain: float = 0.02) -> float:
     """Complex pairs of every state of a shear in steps of 1e-4, C's grains and law, μ = 10."""
     choices = replace(SHEAR_OF_C, strain=strain)
     asked = PairChoices(detection, max_located=0)
-    walk = PairWalk.start(packing_of_c(n), GRAINS_OF_C, choices, asked)
+    run = PairWalk.start(packing_of_c(n), GRAINS_OF_C, choices, asked)
 
     def along():
-        while not walk.done:
-            walk.advance()
+        while not run.done:
+            run.advance()
 
     return cpu(along)
 
@@ -267,8 +267,8 @@ def _sheared(n: int, choices: Shear) -> float:
 
 
 def _walk(packing, choices: Shear) -> None:
-    walk = Walk.start(packing, HARMONIC, choices)
-    while not walk.done and walk.advance():
+    run = QuasistaticRun.from_packing(packing, HARMONIC, choices)
+    while not run.done and run.advance():
         pass
 
 

@@ -18,7 +18,7 @@ from grainmodes.protocols.compression.trajectory import (
     compress_to,
     place_at_random,
 )
-from grainmodes.protocols.shear.run import Walk
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation.balance import Balance
 from grainmodes.response.moduli import rigidity
@@ -67,12 +67,13 @@ def test_a_stable_packing_may_have_a_negative_g():
     g = rigidity(packing, interaction).unloaded.g
     assert g < -1e-4 and not Balance.of(packing, interaction).unstable
     assert g == pytest.approx(step_strain(packing, interaction, StepStrain()).g, rel=1e-6)
-    walk = Walk.start(packing, interaction, Shear(strain=3e-6, step=1e-6, min_step=1e-8))
-    while not walk.done:
-        walk.advance()
-    sigma = [point.stress[0, 1] + point.stress[1, 0] for point in walk.curve]
+    choices = Shear(strain=3e-6, step=1e-6, min_step=1e-8)
+    run = QuasistaticRun.from_packing(packing, interaction, choices)
+    while not run.done:
+        run.advance()
+    sigma = [point.stress[0, 1] + point.stress[1, 0] for point in run.curve]
     assert np.all(np.diff(sigma) < 0.0)
-    assert walk.events == []
+    assert run.events == []
 
 
 def test_a_seed_that_needs_ten_times_the_usual_iterations():

@@ -14,9 +14,9 @@ from grainmodes.packing.forces import energy, net_force, stress
 from grainmodes.packing.state import Packing, PackingError, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear, StepStrain
-from grainmodes.protocols.shear.first_event import steps
-from grainmodes.protocols.shear.quasistatic import affinely, step_to
-from grainmodes.protocols.shear.run import Walk
+from grainmodes.protocols.shear.first_event import accepted_steps
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
+from grainmodes.protocols.shear.strain_step import step_to, strained_affinely
 from grainmodes.relaxation.balance import Balance
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.following import find_balance
@@ -32,8 +32,8 @@ CHOICES = Shear(0.1, 1e-3, 1e-6)
 
 def before_the_first_event(name: str, interaction) -> Balance:
     """The last balance before the first plastic event, which is 1e-6 away."""
-    walk = Walk.start(reference(name)[1], interaction, CHOICES)
-    return next(before for before, _ in steps(walk) if walk.events).balance
+    run = QuasistaticRun.from_packing(reference(name)[1], interaction, CHOICES)
+    return next(before for before, _ in accepted_steps(run) if run.events).balance
 
 
 def sigma(packing: Packing, interaction) -> float:
@@ -44,7 +44,7 @@ def test_newton_from_beyond_an_event_is_not_believed():
     """It converges in three steps to 4e-16, past a contact that opened under load."""
     before = before_the_first_event(MINIMAL[1], FRICTION)
     strain = before.packing.strain + 3e-3
-    direct = newton(affinely(before, strain, False), FRICTION, 1e-14)
+    direct = newton(strained_affinely(before, strain, False), FRICTION, 1e-14)
     assert direct.converged
     found, jumped = step_to(strain, before, CHOICES)
     assert jumped and found.residual < 1e-14 and not found.unstable
@@ -57,7 +57,7 @@ def test_newton_from_beyond_an_event_is_not_believed():
 def test_a_saddle_beyond_an_event_is_left():
     before = before_the_first_event("harmonic_n64_phi0.860_seed2", FREE)
     strain = before.packing.strain + 1e-4
-    saddle = find_balance(affinely(before, strain, False), FREE, 1e-14)
+    saddle = find_balance(strained_affinely(before, strain, False), FREE, 1e-14)
     assert saddle is not None and saddle.residual < 1e-14 and saddle.unstable
     found, jumped = step_to(strain, before, CHOICES)
     assert jumped and not found.unstable and found.residual < 1e-14

@@ -16,8 +16,8 @@ from grainmodes.packing.mass_weighted import generalized_mass
 from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.release import Release
-from grainmodes.protocols.release.run import Run
-from grainmodes.protocols.shear.unstable import Unstable
+from grainmodes.protocols.release.release_run import ReleaseRun
+from grainmodes.protocols.release.unstable_state import UnstableState
 from grainmodes.stages.rows import block_of
 
 SHORT = Release(duration=18.0, min_time=0.0, n_records=600, spectra=0)
@@ -25,7 +25,7 @@ SHORT = Release(duration=18.0, min_time=0.0, n_records=600, spectra=0)
 
 
 @cache
-def state() -> tuple[Unstable, ContactLaw, Interaction]:
+def state() -> tuple[UnstableState, ContactLaw, Interaction]:
     """N = 50, μ = 10, γ = 0.02: ω = 1.0118 + 0.0017i, one of eight pairs."""
     data, packing = reference(SHEARED)
     law = smoothed_coulomb(data)
@@ -35,25 +35,29 @@ def state() -> tuple[Unstable, ContactLaw, Interaction]:
     values, vectors = scipy.linalg.eig(matrix)
     fastest = np.argmax(np.sqrt(values).imag)
     turning = replace(packing, rotation=np.zeros(packing.n))
-    return Unstable(turning, values[fastest], vectors[:, fastest].reshape(-1, 3)), law, interaction
+    return (
+        UnstableState(turning, values[fastest], vectors[:, fastest].reshape(-1, 3)),
+        law,
+        interaction,
+    )
 
 
-def released(choices: Release = SHORT, drag: float = 0.0) -> Run:
+def released(choices: Release = SHORT, drag: float = 0.0) -> ReleaseRun:
     """A whole release of this state."""
     start, _, interaction = state()
-    run = Run.begin(start, interaction, choices, drag)
+    run = ReleaseRun.from_state(start, interaction, choices, drag)
     while not run.done:
         run.advance()
     return run
 
 
-def series(run: Run, name: str) -> np.ndarray:
+def series(run: ReleaseRun, name: str) -> np.ndarray:
     """One quantity of all records."""
     return np.array([getattr(record, name) for record in run.records])
 
 
 def complex_pairs_block() -> Block:
-    """A block as the stage `pairs` leaves it: this state, and a sample that met none."""
+    """A block as the stage `complex_pairs` leaves it: this state, and a sample that met none."""
     start, law, _ = state()
     packing, mode = start.packing, start.mode
     row = {

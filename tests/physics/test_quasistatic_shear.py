@@ -15,23 +15,24 @@ from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing, find_contacts, nonaffine_motion
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.shear.quasistatic import first_balance, step_to
-from grainmodes.protocols.shear.run import RIGIDITY_FELL, Walk
-from grainmodes.protocols.shear.state import State
+from grainmodes.protocols.shear.events import RIGIDITY_DROP
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
+from grainmodes.protocols.shear.sheared_state import ShearedState
+from grainmodes.protocols.shear.strain_step import first_balance, step_to
 from grainmodes.relaxation.frictionless import relax_fast
-from grainmodes.stages.shear import row_of
+from grainmodes.stages.shear_rows import run_row
 
 B = ContactLaw("harmonic", "elastic", 1.0)
 FRICTIONLESS = [ContactLaw("harmonic"), ContactLaw("hertz")]
 SMALL = "harmonic_n64_phi0.900_seed1"
 
 
-def walked(packing: Packing, law: ContactLaw, choices: Shear) -> Walk:
+def sheared(packing: Packing, law: ContactLaw, choices: Shear) -> QuasistaticRun:
     """A shear to its end."""
-    walk = Walk.start(packing, Interaction.from_law(law), choices)
-    while not walk.done and walk.advance():
+    run = QuasistaticRun.from_packing(packing, Interaction.from_law(law), choices)
+    while not run.done and run.advance():
         pass
-    return walk
+    return run
 
 
 @cache
@@ -40,9 +41,9 @@ def harmonic(n: int, seed: int) -> Packing:
     return relax_fast(quenched(n, 0.90, seed), Harmonic(1.0), 1e-14, 1_000_000).packing
 
 
-def state_at(packing: Packing, law: ContactLaw, choices: Shear) -> State:
+def state_at(packing: Packing, law: ContactLaw, choices: Shear) -> ShearedState:
     """A state whose springs are loaded: a few steps away from where friction was switched on."""
-    return walked(packing, law, replace(choices, strain=5 * choices.step)).now
+    return sheared(packing, law, replace(choices, strain=5 * choices.step)).state
 
 
 @pytest.mark.parametrize("loaded", [False, True], ids=["unloaded", "loaded"])
@@ -54,8 +55,8 @@ def test_rigidity_is_the_slope_of_both_stress_components(law, loaded):
     now, slopes = state_at(packing, law, choices), []
     for size in (2e-7, 1e-7):
         there, back = (
-            State(step_to(now.strain + sign * size, now.balance, choices)[0], 0, loaded).stress
-            for sign in (1.0, -1.0)
+            ShearedState(balance, 0, loaded).stress
+            for balance, _ in (step_to(now.strain + d, now.balance, choices) for d in (size, -size))
         )
         slopes.append((there - back) / (2.0 * size))
     extrapolated = (4.0 * slopes[1] - slopes[0]) / 3.0
@@ -69,7 +70,7 @@ def test_work_is_the_change_of_energy_between_events(law):
     missing = []
     for step in (2e-5, 1e-5):
         choices = Shear(strain=4e-5, step=step, min_step=1e-9, loaded=True)
-        curve = walked(packing, law, choices).curve
+        curve = sheared(packing, law, choices).curve
         work = sum(
             0.5 * (a.stress[0, 1] + b.stress[0, 1]) * (b.strain - a.strain)
             for a, b in pairwise(curve)
@@ -83,12 +84,12 @@ def test_work_is_the_change_of_energy_between_events(law):
 def test_work_is_not_the_change_of_energy_where_the_affine_step_leaves_the_springs_alone():
     packing = reference(SMALL)[1]
     now = state_at(packing, B, Shear(step=1e-3, min_step=1e-3))
-    walk = Walk(now, Shear(strain=now.strain + 1e-4, step=1e-4, min_step=1e-4), 1)
-    walk.now = replace(now, units=round(now.strain / 1e-4))
-    walk.advance()
-    after = walk.curve[-1]
+    run = QuasistaticRun(now, Shear(strain=now.strain + 1e-4, step=1e-4, min_step=1e-4), 1)
+    run.state = replace(now, strain_units=round(now.strain / 1e-4))
+    run.advance()
+    after = run.curve[-1]
     work = 0.5 * (now.stress[0, 1] + after.stress[0, 1]) * 1e-4 * packing.box_length**2
-    gain = after.energy - now.point(False).energy
+    gain = after.energy - now.curve_point(False).energy
     assert abs(work - gain) > 1e-3 * abs(gain)
 
 
@@ -114,9 +115,9 @@ def test_newton_and_damped_dynamics_agree_between_events(seed):
         choices = Shear(
             strain=4e-4, step=1e-4, min_step=1e-4, relaxation=relaxation, time_step=1e-2
         )
-        walk = walked(packing, B, choices)
-        free = all(c.opened == c.closed == 0 for c in walk.changes)
-        sigma[relaxation] = [0.5 * (p.stress[0, 1] + p.stress[1, 0]) for p in walk.curve]
+        run = sheared(packing, B, choices)
+        free = all(c.opened == c.closed == 0 for c in run.network_changes)
+        sigma[relaxation] = [0.5 * (p.stress[0, 1] + p.stress[1, 0]) for p in run.curve]
     if free:
         np.testing.assert_allclose(sigma["newton"], sigma["damped"], rtol=1e-6)
     else:
@@ -130,7 +131,7 @@ def test_the_difference_to_damped_dynamics_falls_as_the_square_of_the_step():
         sigma = []
         for relaxation in ("newton", "damped"):
             choices = Shear(step, step, step, relaxation, time_step=1e-2)
-            sigma.append(walked(packing, B, choices).now.sigma)
+            sigma.append(sheared(packing, B, choices).state.sigma)
         differences.append(abs(sigma[0] - sigma[1]))
     orders = -np.diff(np.log2(differences))
     assert np.all(np.abs(orders - 2.0) < 0.1)
@@ -152,12 +153,12 @@ def test_contacts_of_a_lattice_open_at_the_strain_of_pencil_and_paper():
     packing, critical = hexagonal()
     choices = Shear(strain=0.02, step=1e-3, min_step=1e-9)
     assert 1e-3 < critical < 0.02
-    walk = walked(packing, B, choices)
-    event = walk.events[0]
+    run = sheared(packing, B, choices)
+    event = run.events[0]
     low, high = (point.strain for point in event.points)
     assert low < critical <= high
     assert high - low == pytest.approx(1e-9, rel=1e-6)
-    assert event.kind & RIGIDITY_FELL
+    assert event.kind & RIGIDITY_DROP
     assert (event.opened, event.closed) == (packing.n, 0)
     assert np.abs(event.displacement).max() < 1e-9
 
@@ -168,10 +169,12 @@ def test_the_critical_strain_does_not_depend_on_the_first_step(law):
     packing = reference(f"{law.normal}_n64_phi0.860_seed2")[1]
     brackets = []
     for step in (1e-3, 1e-4):
-        walk = Walk.start(packing, Interaction.from_law(law), Shear(0.2, step, 1e-8))
-        while not walk.events and not walk.done and walk.advance():
+        run = QuasistaticRun.from_packing(
+            packing, Interaction.from_law(law), Shear(0.2, step, 1e-8)
+        )
+        while not run.events and not run.done and run.advance():
             pass
-        brackets.append([point.strain for point in walk.events[0].points])
+        brackets.append([point.strain for point in run.events[0].points])
     assert np.ptp(brackets, axis=0).max() <= 1.5e-8
     assert np.diff(brackets, axis=1) == pytest.approx(1e-8, rel=1e-6)
 
@@ -180,13 +183,13 @@ def test_the_critical_strain_does_not_depend_on_the_first_step(law):
 def test_a_walk_taken_up_again_ends_with_the_same_bytes(law):
     packing = reference("harmonic_n64_phi0.860_seed2")[1]
     choices = Shear(strain=0.01, step=1e-4, min_step=1e-7)
-    whole = row_of(walked(packing, law, choices))
-    walk, stops = Walk.start(packing, Interaction.from_law(law), choices), 0
-    while not walk.done and walk.advance():
-        if walk.restartable:
-            walk, stops = pickle.loads(pickle.dumps(walk)), stops + 1
+    whole = run_row(sheared(packing, law, choices))
+    run, stops = QuasistaticRun.from_packing(packing, Interaction.from_law(law), choices), 0
+    while not run.done and run.advance():
+        if run.restartable:
+            run, stops = pickle.loads(pickle.dumps(run)), stops + 1
     assert stops >= 2
-    again = row_of(walk)
+    again = run_row(run)
     assert whole.keys() == again.keys()
     for name, value in whole.items():
         assert np.asarray(value).tobytes() == np.asarray(again[name]).tobytes(), name

@@ -10,42 +10,44 @@ from example_packings import reference
 from grainmodes.kernels.laws import Interaction
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.shear.quasistatic import step_to
-from grainmodes.protocols.shear.run import Walk
-from grainmodes.protocols.shear.state import reopened
+from grainmodes.protocols.shear.events import count_reopened
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
+from grainmodes.protocols.shear.strain_step import step_to
 from grainmodes.response.stability import asymmetry
-from grainmodes.stages.shear import row_of
+from grainmodes.stages.shear_rows import run_row
 
 B = ContactLaw("harmonic", "elastic", 1.0)
 CHOICES = Shear(strain=1e-3, step=1e-4, min_step=1e-8)
 
 
 @pytest.fixture(scope="module")
-def walk():
+def run():
     """A sheared packing, its springs loaded."""
-    walk = Walk.start(reference("harmonic_n64_phi0.900_seed1")[1], Interaction.from_law(B), CHOICES)
-    while not walk.done and walk.advance():
+    run = QuasistaticRun.from_packing(
+        reference("harmonic_n64_phi0.900_seed1")[1], Interaction.from_law(B), CHOICES
+    )
+    while not run.done and run.advance():
         pass
-    return walk
+    return run
 
 
-def test_only_springs_that_start_anew_have_reopened(walk):
-    before = walk.now.balance
+def test_only_springs_that_start_anew_have_reopened(run):
+    before = run.state.balance
     after, _ = step_to(before.packing.strain + 1e-5, before, CHOICES)
     history, loads = after.packing.history, np.abs(before.packing.history.spring_state)
     assert np.array_equal(history.i, before.packing.history.i)
-    assert reopened(before.packing, after.packing, Interaction.from_law(B)) == 0
+    assert count_reopened(before.packing, after.packing, Interaction.from_law(B)) == 0
     for count in (1, 3):
         s = history.spring_state.copy()
         s[np.argsort(loads)[-count:]] = 0.0
         renewed = replace(after.packing, history=replace(history, spring_state=s))
-        assert reopened(before.packing, renewed, Interaction.from_law(B)) == count
+        assert count_reopened(before.packing, renewed, Interaction.from_law(B)) == count
 
 
-def test_loaded_springs_cost_the_jacobian_its_symmetry(walk):
+def test_loaded_springs_cost_the_jacobian_its_symmetry(run):
     """Of max|J − Jᵀ| no more than −(f_T/r) n tᵀ of all contacts of a grain."""
-    balance = walk.now.balance
-    row, whole = row_of(walk), balance.matrix.toarray()
+    balance = run.state.balance
+    row, whole = run_row(run), balance.matrix.toarray()
     contacts = balance.backbone_contacts
     bent = np.abs(B.kt * contacts.displacement / contacts.distance)
     difference = np.abs(whole - whole.T).max()

@@ -118,7 +118,7 @@ def fields(arguments: Namespace) -> None:
 
 def shear(arguments: Namespace) -> None:
     """Packings → their curves of stress and strain, and their events."""
-    from grainmodes.stages.checkpoints import Keeping, fingerprint
+    from grainmodes.stages.checkpoints import CheckpointFiles, fingerprint, shear_progress
     from grainmodes.stages.shear import shear_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
@@ -126,10 +126,12 @@ def shear(arguments: Namespace) -> None:
     coarse_run = scene.grids[0].observables.coarse_run
     with _opened(arguments.packings, "packings") as packings:
         start = law, choices, fingerprint(packings)
-        keeping = Keeping(arguments.output, start, arguments.checkpoint_every)
-        block = shear_block(packings, law, choices, coarse_run, keeping)
+        checkpoints = CheckpointFiles(
+            arguments.output, start, arguments.checkpoint_every, shear_progress
+        )
+        block = shear_block(packings, law, choices, coarse_run, checkpoints)
     write_block(arguments.output, block)
-    keeping.forget()
+    checkpoints.discard()
 
 
 def event_detail(arguments: Namespace) -> None:
@@ -156,17 +158,18 @@ def complex_pairs(arguments: Namespace) -> None:
 
 def release(arguments: Namespace) -> None:
     """Samples with their complex pairs → what becomes of their unstable states."""
-    from grainmodes.stages.checkpoints import Keeping, fingerprint, of_run
+    from grainmodes.stages.checkpoints import CheckpointFiles, fingerprint, release_progress
     from grainmodes.stages.release import release_block
 
     scene = _scene(arguments.settings, kt=arguments.kt)
     law, choices = scene.law_at(arguments.kt), scene.protocol.release
     with _opened(arguments.pairs, "complex_pairs") as pairs:
         start = law, choices, fingerprint(pairs)
-        keeping = Keeping(arguments.output, start, arguments.checkpoint_every, of_run)
-        block = release_block(pairs, law, choices, keeping)
+        every = arguments.checkpoint_every
+        checkpoints = CheckpointFiles(arguments.output, start, every, release_progress)
+        block = release_block(pairs, law, choices, checkpoints)
     write_block(arguments.output, block)
-    keeping.forget()
+    checkpoints.discard()
 
 
 def law_comparison(arguments: Namespace) -> None:

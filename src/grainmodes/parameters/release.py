@@ -4,6 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+GROWTH_RANGE = (1e-19, 1e-11)
+"""M, in d², between which growth is fitted: above round-off, below what changes the forces."""
+
+DENSE_RECORDS_ONSET = 1e-16
+"""M, in d², from which a run is recorded densely: far above round-off, far below the overlaps."""
+
 
 @dataclass(frozen=True)
 class Release:

@@ -1,9 +1,9 @@
-"""Long walks kept beside their output, and a line that says how far they are.
+"""Checkpoints of long runs in files beside their output, and a line that says how far a run is.
 
-A walk is a shear, or the run of a release. It is pickled to `.<output>.<name>.kept`, written whole
-or not at all. It is taken up again only by the same code, from the same packings with the same
-choices; anything else on that path is passed over. An interrupted sample so goes on where it stood
-some minutes before, and ends with the same bytes.
+A run is pickled to `.<output>.<name>.checkpoint`, written whole or not at all. It is read back only
+by the same code, for the same packings with the same choices; any other content of that file is
+ignored. So an interrupted sample goes on where it was some minutes before, and ends with the same
+bytes.
 """
 
 from __future__ import annotations
@@ -14,30 +14,23 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
+from typing import Generic, NamedTuple
 
 import numpy as np
 
 from grainmodes.dataset.files import Block
-from grainmodes.protocols.release.run import Run
-from grainmodes.protocols.shear.run import Walk
+from grainmodes.protocols.release.release_run import ReleaseRun
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.runtime.atomic import replaced
 from grainmodes.runtime.provenance import code_version
+from grainmodes.stages.long_runs import Run
 
-LINE_EVERY = 2.0
-"""Seconds between two lines on a terminal; elsewhere one stands for every walk kept."""
-
-
-def fingerprint(packings: Block) -> str:
-    """Tells the packings of a block from any others."""
-    digest = hashlib.sha256()
-    for name, array in sorted(packings.variables.items()):
-        digest.update(name.encode() + np.ascontiguousarray(array).tobytes())
-    return digest.hexdigest()
+SECONDS_PER_LINE = 2.0
+"""Seconds between two lines on a terminal; elsewhere there is one line for every checkpoint."""
 
 
 class Progress(NamedTuple):
-    """How far a walk is: the part done, where that is in words, and a count of some unit."""
+    """How far a run is: the part done, the same in words, and a count of some unit."""
 
     done: float
     words: str
@@ -45,87 +38,91 @@ class Progress(NamedTuple):
     unit: str
 
 
-def of_walk(walk: Walk) -> Progress:
+def shear_progress(run: QuasistaticRun) -> Progress:
     """How far a shear is."""
-    strain, last = walk.now.strain, walk.choices.strain
-    words = f"strain {strain:.4f} of {last:g}, {len(walk.events)} events"
-    return Progress(strain / last, words, len(walk.curve), "states")
+    strain, last = run.state.strain, run.choices.strain
+    words = f"strain {strain:.4f} of {last:g}, {len(run.events)} events"
+    return Progress(strain / last, words, len(run.curve), "states")
 
 
-def of_run(run: Run) -> Progress:
-    """How far the run of a release is."""
+def release_progress(run: ReleaseRun) -> Progress:
+    """How far a release is."""
     square = run.records[-1].mean_square_displacement
-    words = f"{run.steps} of {run.last} steps, M = {square:.1e}"
-    return Progress(run.steps / run.last, words, run.steps, "steps")
+    words = f"{run.steps} of {run.last_step} steps, M = {square:.1e}"
+    return Progress(run.steps / run.last_step, words, run.steps, "steps")
 
 
-class Keeping:
-    """Keeps the walks of one output file.
+def fingerprint(block: Block) -> str:
+    """A hash that differs between blocks of different content."""
+    digest = hashlib.sha256()
+    for name, array in sorted(block.variables.items()):
+        digest.update(name.encode() + np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()
+
+
+class CheckpointFiles(Generic[Run]):
+    """The checkpoints of the runs of one output file.
 
     Args:
         output: the file that will hold the finished block.
-        start: all that a walk depends on besides the code: law, choices, packings.
-        seconds: how often a walk is kept.
-        progress: tells how far a walk is.
+        start: everything that a run depends on besides the code: law, choices, packings.
+        seconds: least time between two checkpoints of a run.
+        progress: says how far a run is.
     """
 
     def __init__(
-        self,
-        output: Path,
-        start: tuple,
-        seconds: float,
-        progress: Callable[[Walk | Run], Progress] = of_walk,
+        self, output: Path, start: tuple, seconds: float, progress: Callable[[Run], Progress]
     ):
         self._output, self._seconds, self._progress = output, seconds, progress
         self._mark = (code_version(), start)
-        self._kept: set[Path] = set()
+        self._files: set[Path] = set()
 
-    def kept(self, name: str) -> Walk | Run | None:
-        """The walk of this name as far as it came, if this code kept one."""
-        walk = self._read(self._path(name))
-        self._started = self._kept_at = self._said_at = time.monotonic()
-        self._from = self._progress(walk) if walk else Progress(0.0, "", 0, "")
-        return walk
+    def load(self, name: str) -> Run | None:
+        """The saved run of this name, if this code saved one from the same start."""
+        run = self._read(self._path(name))
+        self._started = self._saved_at = self._printed_at = time.monotonic()
+        self._first = self._progress(run) if run else Progress(0.0, "", 0, "")
+        return run
 
-    def _read(self, path: Path) -> Walk | Run | None:
+    def _read(self, path: Path) -> Run | None:
         if not path.is_file():
             return None
-        self._kept.add(path)
+        self._files.add(path)
         try:
-            mark, walk = pickle.loads(path.read_bytes())
+            mark, run = pickle.loads(path.read_bytes())
         except Exception:
-            return None  # a foreign or a broken file: the sample begins anew
-        return walk if mark == self._mark else None
+            return None  # a foreign or broken file: the sample starts from its beginning
+        return run if mark == self._mark else None
 
-    def watch(self, name: str, walk: Walk | Run) -> None:
-        """Keep the walk if it is time to; say how far it is."""
+    def save_if_due(self, name: str, run: Run) -> None:
+        """Save the run if enough time has passed and the run is restartable; print its progress."""
         now = time.monotonic()
-        if now - self._kept_at > self._seconds and walk.restartable:
+        if now - self._saved_at > self._seconds and run.restartable:
             path = self._path(name)
             with replaced(path) as partial:
-                partial.write_bytes(pickle.dumps((self._mark, walk)))
-            self._kept.add(path)
-            self._kept_at = now
-            self._say(name, walk, now)
-        elif sys.stderr.isatty() and now - self._said_at > LINE_EVERY:
-            self._say(name, walk, now)
+                partial.write_bytes(pickle.dumps((self._mark, run)))
+            self._files.add(path)
+            self._saved_at = now
+            self._print_progress(name, run, now)
+        elif sys.stderr.isatty() and now - self._printed_at > SECONDS_PER_LINE:
+            self._print_progress(name, run, now)
 
-    def forget(self) -> None:
-        """Remove what was kept: the output is complete."""
-        for path in self._kept:
+    def discard(self) -> None:
+        """Remove all checkpoints, once the output is complete."""
+        for path in self._files:
             path.unlink(missing_ok=True)
 
     def _path(self, name: str) -> Path:
-        return self._output.with_name(f".{self._output.name}.{name}.kept")
+        return self._output.with_name(f".{self._output.name}.{name}.checkpoint")
 
-    def _say(self, name: str, walk: Walk | Run, now: float) -> None:
-        self._said_at = now
-        first, here, elapsed = self._from, self._progress(walk), now - self._started
-        way = here.done - first.done
-        left = (1.0 - here.done) / way * elapsed if way > 0.0 else float("inf")
-        pace = (here.count - first.count) / elapsed
+    def _print_progress(self, name: str, run: Run, now: float) -> None:
+        self._printed_at = now
+        first, here, elapsed = self._first, self._progress(run), now - self._started
+        gain = here.done - first.done
+        left = (1.0 - here.done) / gain * elapsed if gain > 0.0 else float("inf")
+        speed = (here.count - first.count) / elapsed
         print(
-            f"{name}: {here.words}, {pace:.0f} {here.unit} per second, {left / 60.0:.0f} min left",
+            f"{name}: {here.words}, {speed:.0f} {here.unit} per second, {left / 60.0:.0f} min left",
             file=sys.stderr,
             flush=True,
         )

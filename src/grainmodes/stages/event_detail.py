@@ -1,11 +1,12 @@
 """The stage `event_detail`: the first event of one sample in detail: B, Figs. 3-6 and 10-13.
 
-The closest bracket, Δγ_Th = 1e-6 Δγ_in, gives the event whose states and fields are kept. A sample
-without an event up to the last strain has `event_count` = 0 and none of these.
+The narrowest bracket, Δγ_Th = 1e-6 Δγ_in, gives the event whose states and fields are kept. A
+sample without an event up to the last strain has `event_count` = 0 and none of these.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 
 import numpy as np
@@ -20,18 +21,21 @@ from grainmodes.protocols.shear.event_states import (
     RATE_STEP,
     SLOPE_STEP,
     lowest_mode_of,
-    on_all,
-    rate_of,
-    simulated_rate,
+    nonaffine_rate,
+    simulated_nonaffine_rate,
     states_around,
 )
-from grainmodes.protocols.shear.first_event import Bracket, bracket_ends, brackets, closer, steps
-from grainmodes.protocols.shear.run import Walk
+from grainmodes.protocols.shear.first_event import (
+    Bracket,
+    accepted_steps,
+    bracket_first_event,
+    refined_steps,
+)
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.protocols.shear.tangential_path import PathError, TangentialPath
 from grainmodes.stages.rows import response_block
 from grainmodes.stages.samples import first_sample, jammed_packing
-
-SIDES = ("before", "after")
+from grainmodes.stages.shear_rows import bracket_ends, on_every_grain, symmetric_shear
 
 
 def event_detail_block(packings: Block, law: ContactLaw, choices: Shear) -> Block:
@@ -43,11 +47,15 @@ def event_detail_block(packings: Block, law: ContactLaw, choices: Shear) -> Bloc
         row = {"event_count": 0, "path_count": 0, "jammed": jammed, "converged": True}
         if not jammed:
             return row | _grains(packing)
-        *_, closest = found = brackets(packing, interaction, choices)
-        row |= _brackets(found) | _paths(packing, interaction, closer(choices)[0])
-        if closest.event is None:
+        brackets, refined = (
+            bracket_first_event(packing, interaction, choices),
+            refined_steps(choices),
+        )
+        narrowest = brackets[-1]
+        row |= _brackets(brackets) | _path_errors(packing, interaction, refined[0])
+        if narrowest.event is None:
             return row | _grains(packing)
-        return row | _event(closest, closer(choices)[-1])
+        return row | _event(narrowest, refined[-1])
 
     shear = {name: value for name, value in asdict(choices).items() if name != "min_step"}
     config = {"law": asdict(law), "shear": shear, "rate": RATE_STEP, "slope": SLOPE_STEP}
@@ -59,79 +67,81 @@ def _grains(packing: Packing) -> dict[str, object]:
     return {name: getattr(packing, name) for name in names}
 
 
-def _brackets(found: list[Bracket]) -> dict[str, object]:
-    """Every bracket with the curve around it."""
-    sides = {f"stress_{side}": np.nan for side in SIDES}
-    columns = sides | {"kind": 0, "opened": 0, "closed": 0}
-    values = [columns | (_ends(b) if b.event else {}) for b in found]
-    row = {f"bracket_{name}": [value[name] for value in values] for name in columns}
-    longest = max(len(b.curve) for b in found)
-    strain, stress = (np.full((len(found), longest), np.nan) for _ in range(2))
-    for place, bracket in enumerate(found):
-        strain[place, : len(bracket.curve)] = [p.strain for p in bracket.curve]
-        stress[place, : len(bracket.curve)] = [_mean(p.stress) for p in bracket.curve]
-    return (
-        row | bracket_ends(found) | {"bracket_curve_strain": strain, "bracket_curve_stress": stress}
-    )
-
-
-def _ends(bracket: Bracket) -> dict[str, float]:
-    event, ends = bracket.event, (bracket.before, bracket.after)
+def _brackets(brackets: Sequence[Bracket]) -> dict[str, object]:
+    """Every bracket with its event, its ends and the curve around it."""
+    names = ("stress_before", "stress_after", "kind", "opened", "closed")
+    columns = zip(names, zip(*map(_bracket_values, brackets), strict=True), strict=True)
+    longest = max(len(bracket.curve) for bracket in brackets)
+    strain, stress = (np.full((len(brackets), longest), np.nan) for _ in range(2))
+    for place, bracket in enumerate(brackets):
+        count = len(bracket.curve)
+        strain[place, :count] = [point.strain for point in bracket.curve]
+        stress[place, :count] = [symmetric_shear(point.stress) for point in bracket.curve]
     return {
-        **{f"stress_{side}": state.sigma for side, state in zip(SIDES, ends, strict=True)},
-        **{name: getattr(event, name) for name in ("kind", "opened", "closed")},
+        **{f"bracket_{name}": values for name, values in columns},
+        **bracket_ends(brackets),
+        "bracket_curve_strain": strain,
+        "bracket_curve_stress": stress,
     }
+
+
+def _bracket_values(bracket: Bracket) -> tuple[float, float, int, int, int]:
+    """Stress before and after the event, its kind, and the contacts opened and closed."""
+    event = bracket.event
+    if event is None:
+        return np.nan, np.nan, 0, 0, 0
+    before, after = bracket.before, bracket.after
+    return before.sigma, after.sigma, event.kind, event.opened, event.closed
 
 
 def _event(bracket: Bracket, choices: Shear) -> dict[str, object]:
     """The event, the states around it and its fields; grains where they are just after it."""
-    event, after = bracket.event, bracket.after
-    modes = [lowest_mode_of(state) for state in (bracket.before, after)]
-    overlap = np.nansum(modes[0][1] * modes[1][1])
-    moved = on_all(event.displacement, np.ones(len(event.displacement), bool))
+    event, before, after = bracket.event, bracket.before, bracket.after
+    (mode_before, vector_before), (mode_after, vector_after) = map(lowest_mode_of, (before, after))
+    overlap = np.nansum(vector_before * vector_after)
     return _grains(event.after) | {
         "event_count": 1,
         "event_kind": [event.kind],
-        "event_strain_before": [bracket.before.strain],
+        "event_strain_before": [before.strain],
         "event_strain_after": [after.strain],
-        "event_lowest_eigenvalue_before": [modes[0][0].eigenvalue],
-        "event_lowest_eigenvalue_after": [modes[1][0].eigenvalue],
-        "event_displacement": moved[None],
-        "residual": max(mode.residual for mode, _ in modes),
-        "lowest_mode_before": modes[0][1],
-        "lowest_mode_after": modes[1][1] * (np.sign(overlap) or 1.0),
-        "rate": rate_of(after),
-        "rate_simulated": simulated_rate(after, choices),
-        **_near(bracket, choices),
+        "event_lowest_eigenvalue_before": [mode_before.eigenvalue],
+        "event_lowest_eigenvalue_after": [mode_after.eigenvalue],
+        "event_displacement": on_every_grain(event.displacement)[None],
+        "residual": max(mode_before.residual, mode_after.residual),
+        "lowest_mode_before": vector_before,
+        "lowest_mode_after": vector_after * (np.sign(overlap) or 1.0),
+        "rate": nonaffine_rate(after),
+        "rate_simulated": simulated_nonaffine_rate(after, choices),
+        **_branches(bracket, choices),
     }
 
 
-def _near(bracket: Bracket, choices: Shear) -> dict[str, object]:
-    near = states_around(bracket, choices)
+def _branches(bracket: Bracket, choices: Shear) -> dict[str, object]:
+    """The states on both branches that meet at the event."""
+    branches = states_around(bracket, choices)
+    states = [one.state for one in branches]
     return {
-        "near_distance": [n.distance for n in near],
-        "near_strain": [n.state.strain for n in near],
-        "near_stress": [n.state.sigma for n in near],
-        "near_lowest_eigenvalue": [n.state.lowest for n in near],
-        "near_g": [n.state.g for n in near],
-        "near_g_numerical": [n.slope for n in near],
-        "near_changes": [n.changes for n in near],
+        "near_distance": [one.distance for one in branches],
+        "near_strain": [state.strain for state in states],
+        "near_stress": [state.sigma for state in states],
+        "near_lowest_eigenvalue": [state.lowest_eigenvalue for state in states],
+        "near_g": [state.g for state in states],
+        "near_g_numerical": [one.slope for one in branches],
+        "near_changes": [one.changes for one in branches],
     }
 
 
-def _paths(packing: Packing, interaction: Interaction, choices: Shear) -> dict[str, object]:
-    """B's Err along the walk in whole steps, up to its first event."""
+def _path_errors(packing: Packing, interaction: Interaction, choices: Shear) -> dict[str, object]:
+    """B's Err along a shear in whole steps, up to its first event; nothing without friction."""
     if is_frictionless(interaction):
         return {}
-    walk = Walk.start(packing, interaction, choices)
-    path, errors = TangentialPath(walk.now.balance), []
-    for _, now in steps(walk):
-        if walk.events:
+    run = QuasistaticRun.from_packing(packing, interaction, choices)
+    path, errors = TangentialPath(run.state.balance), []
+    for _, state in accepted_steps(run):
+        if run.events:
             break
-        errors.append(path.follow(now.balance))
-    row = {f"path_{name}": [getattr(e, name) for e in errors] for name in PathError._fields}
-    return {"path_count": len(errors)} | (row if errors else {})
-
-
-def _mean(tensor: np.ndarray) -> float:
-    return float(tensor[0, 1] + tensor[1, 0]) / 2.0
+        errors.append(path.follow(state.balance))
+    if not errors:
+        return {"path_count": 0}
+    columns = zip(PathError._fields, zip(*errors, strict=True), strict=True)
+    return {"path_count": len(errors)} | {f"path_{name}": values for name, values in columns}

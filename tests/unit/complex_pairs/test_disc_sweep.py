@@ -21,7 +21,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.shear.quasistatic import first_balance, step_to
+from grainmodes.protocols.shear.strain_step import first_balance, step_to
 
 CHOICES = Shear(step=1e-3, min_step=1e-3, force_tolerance=5e-14)
 

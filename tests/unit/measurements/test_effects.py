@@ -27,7 +27,7 @@ from grainmodes.protocols.compression.trajectory import (
     compress_to,
     place_at_random,
 )
-from grainmodes.protocols.shear.run import Walk
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation import newton
 from grainmodes.response.moduli import rigidity
@@ -84,8 +84,8 @@ def test_frictionless_forces_read_positions_and_pairs_and_write_forces():
 
 
 def test_the_look_into_compiled_code_sees_a_history():
-    walk = Walk.start(quenched(16, 0.9), FRICTION, Shear(1e-4, relaxation="damped"))
-    walk.advance()
+    run = QuasistaticRun.from_packing(quenched(16, 0.9), FRICTION, Shear(1e-4, relaxation="damped"))
+    run.advance()
     assert "spring" in arrays_of(integrate)
 
 
@@ -107,10 +107,10 @@ def test_without_friction_nothing_tangential_is_touched(monkeypatch):
     assert rigidity(packing, NO_FRICTION).unloaded.displacement.shape[1] == 2
     assert step_strain(packing, NO_FRICTION, StepStrain()).converged
     assert Eigenproblem.from_packing(packing, NO_FRICTION).k == 2
-    walk = Walk.start(packing, NO_FRICTION, Shear(1e-3))
-    while not walk.done:
-        walk.advance()
-    for state in (packing, walk.now.balance.packing):
+    run = QuasistaticRun.from_packing(packing, NO_FRICTION, Shear(1e-3))
+    while not run.done:
+        run.advance()
+    for state in (packing, run.state.balance.packing):
         assert state.rotation is None and state.history is None
 
 

@@ -18,7 +18,7 @@ from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.state import find_contacts, nonaffine_motion
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.shear.quasistatic import first_balance, step_to
+from grainmodes.protocols.shear.strain_step import first_balance, step_to
 from grainmodes.relaxation.balance import OLDEST, Balance, lost_force
 from grainmodes.relaxation.following import find_balance
 from grainmodes.response.stability import lowest_eigenvalue

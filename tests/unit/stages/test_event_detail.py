@@ -1,4 +1,4 @@
-"""One event looked at closely: brackets, the branches that meet there, and B's Err."""
+"""One event in detail: brackets, the branches that meet there, and B's Err."""
 
 from functools import cache
 from itertools import pairwise
@@ -16,22 +16,22 @@ from grainmodes.packing.contacts import Contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.event_states import (
-    distances_of,
+    branch_distances,
     lowest_mode_of,
-    rate_of,
-    simulated_rate,
+    nonaffine_rate,
+    simulated_nonaffine_rate,
     states_around,
 )
 from grainmodes.protocols.shear.first_event import (
-    AROUND,
+    CURVE_MARGIN,
     Bracket,
-    bracketed,
-    brackets,
-    closer,
-    steps,
+    accepted_steps,
+    bracket_first_event,
+    refined_steps,
+    run_to_first_event,
 )
-from grainmodes.protocols.shear.run import Walk
-from grainmodes.protocols.shear.tangential_path import TangentialPath, error
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
+from grainmodes.protocols.shear.tangential_path import TangentialPath, normal_part
 from grainmodes.response.stability import SMALL, lowest_mode
 from grainmodes.stages.event_detail import event_detail_block
 from grainmodes.stages.rows import block_of
@@ -43,45 +43,46 @@ SMALL_STRAIN = Shear(strain=0.012)
 each_law = pytest.mark.parametrize("law", LAWS, ids=law_name)
 
 
-def packing_of(law: ContactLaw):
+def packing_for(law: ContactLaw):
     return reference(f"{law.normal}_n64_phi0.860_seed2")[1]
 
 
 @cache
-def found(law: ContactLaw) -> list[Bracket]:
+def all_brackets(law: ContactLaw) -> list[Bracket]:
     """The first event at every Δγ_Th."""
-    return brackets(packing_of(law), Interaction.from_law(law), SMALL_STRAIN)
+    return bracket_first_event(packing_for(law), Interaction.from_law(law), SMALL_STRAIN)
 
 
-def closest(law: ContactLaw) -> Bracket:
+def narrowest(law: ContactLaw) -> Bracket:
     """The first event at Δγ_Th = 1e-10."""
-    return found(law)[-1]
+    return all_brackets(law)[-1]
 
 
 @cache
 def block(law: ContactLaw, strain: float = 0.012) -> Block:
     """The stage on a block of two packings."""
-    row = packed(packing_of(law), Harmonic(1.0)) | {"converged": True}
+    row = packed(packing_for(law), Harmonic(1.0)) | {"converged": True}
     attributes = {"stage": "packings", "n": 64, "phi": 0.86}
     packings = block_of((2, 5), lambda _: row, {}, attributes)
     return event_detail_block(packings, law, Shear(strain))
 
 
 def test_brackets_without_friction_lie_within_each_other():
-    states = found(LAWS[0])
-    for coarse, fine in pairwise(states):
+    brackets = all_brackets(LAWS[0])
+    for coarse, fine in pairwise(brackets):
         assert fine.before.strain > coarse.before.strain - 1e-13
         assert fine.after.strain < coarse.after.strain + 1e-13
-    widths = [b.after.strain - b.before.strain for b in states]
+    widths = [b.after.strain - b.before.strain for b in brackets]
     assert_allclose(widths, 10.0 ** -np.arange(4, 11), rtol=1e-5)
-    assert {b.event.kind for b in states} == {2}
+    assert {b.event.kind for b in brackets} == {2}
 
 
 @each_law
-def test_every_bracket_is_that_of_a_walk_of_its_own(law):
-    choices = closer(SMALL_STRAIN)[3]
-    alone = bracketed(Walk.start(packing_of(law), Interaction.from_law(law), choices))
-    shared = found(law)[3]
+def test_every_bracket_is_that_of_a_run_of_its_own(law):
+    choices = refined_steps(SMALL_STRAIN)[3]
+    run = QuasistaticRun.from_packing(packing_for(law), Interaction.from_law(law), choices)
+    alone = run_to_first_event(run)
+    shared = all_brackets(law)[3]
     for side in ("before", "after"):
         one, other = getattr(alone, side), getattr(shared, side)
         assert one.strain == pytest.approx(other.strain, rel=1e-14)
@@ -91,11 +92,11 @@ def test_every_bracket_is_that_of_a_walk_of_its_own(law):
 
 @each_law
 def test_a_curve_surrounds_its_event(law):
-    bracket = closest(law)
+    bracket = narrowest(law)
     strains = np.array([point.strain for point in bracket.curve])
     assert {bracket.before.strain, bracket.after.strain} <= set(strains)
     assert (np.diff(strains) > 0.0).all()
-    reach = AROUND * 1e-4
+    reach = CURVE_MARGIN * 1e-4
     assert np.abs(strains - bracket.after.strain).max() < 1.01 * reach
     assert strains[0] < bracket.after.strain - 0.5 * reach
     assert strains[-1] > bracket.after.strain + 0.5 * reach
@@ -103,10 +104,11 @@ def test_a_curve_surrounds_its_event(law):
 
 @each_law
 def test_the_branches_go_on_from_both_ends(law):
-    bracket, choices = closest(law), closer(SMALL_STRAIN)[-1]
+    bracket, choices = narrowest(law), refined_steps(SMALL_STRAIN)[-1]
     near = states_around(bracket, choices)
     distance = np.array([n.distance for n in near])
-    assert_allclose(distance, [-d for d in distances_of(choices)[::-1]] + distances_of(choices))
+    distances = branch_distances(choices)
+    assert_allclose(distance, [-d for d in distances[::-1]] + distances)
     ends = near[6], near[7]
     assert (ends[0].state, ends[1].state) == (bracket.before, bracket.after)
     origin = np.where(distance < 0, bracket.after.strain, bracket.before.strain)
@@ -118,10 +120,11 @@ def test_the_branches_go_on_from_both_ends(law):
 @each_law
 def test_harmonic_grains_show_no_precursor(law):
     """Both come to the event in a straight line: B3, B4."""
-    before = [n for n in states_around(closest(law), closer(SMALL_STRAIN)[-1]) if n.distance < 0]
+    near = states_around(narrowest(law), refined_steps(SMALL_STRAIN)[-1])
+    before = [n for n in near if n.distance < 0]
     end, rest = before[-1].state, before[:-2]
     assert all(n.changes == 0 for n in before)
-    for name in ("lowest", "g"):
+    for name in ("lowest_eigenvalue", "g"):
         left = [abs(getattr(n.state, name) - getattr(end, name)) for n in rest]
         assert_allclose(np.array(left[:-1]) / left[1:], 10.0, rtol=0.02)
         assert max(left) < 0.01 * abs(getattr(end, name))
@@ -130,11 +133,11 @@ def test_harmonic_grains_show_no_precursor(law):
 def test_a_fold_is_seen_as_one():
     """With Hertz's law and friction λ vanishes as (γ_c − γ)^(1/2), and g grows as its inverse."""
     law, choices = ContactLaw("hertz", "elastic", 1.0), Shear(0.11, 1e-3, 1e-7)
-    walk = Walk.start(packing_of(law), Interaction.from_law(law), choices)
-    before, after = next(pair for pair in steps(walk) if walk.events)
-    fold = Bracket(choices.min_step, before, walk.curve, walk.events[0], after)
+    run = QuasistaticRun.from_packing(packing_for(law), Interaction.from_law(law), choices)
+    before, after = next(pair for pair in accepted_steps(run) if run.events)
+    fold = Bracket(choices.min_step, before, run.curve, run.events[0], after)
     towards = [n.state for n in states_around(fold, choices) if -1e-4 < n.distance < -2e-7]
-    ratios = [a.lowest / b.lowest for a, b in pairwise(towards)]
+    ratios = [a.lowest_eigenvalue / b.lowest_eigenvalue for a, b in pairwise(towards)]
     assert_allclose(ratios, np.sqrt(10.0), rtol=0.1)
     assert towards[-1].g > 1.2 * towards[0].g
 
@@ -142,13 +145,13 @@ def test_a_fold_is_seen_as_one():
 @each_law
 @pytest.mark.parametrize("side", ["before", "after"])
 def test_the_lowest_mode_is_that_of_a_dense_spectrum(law, side):
-    state = getattr(closest(law), side)
+    state = getattr(narrowest(law), side)
     mode, field = lowest_mode_of(state)
     matrix, held = state.balance.matrix.toarray(), state.balance.held
     values = np.linalg.eigvals(matrix)
     values = values[np.argsort(np.abs(values))]
     assert mode.eigenvalue == pytest.approx(values[2].real, rel=1e-9)
-    assert mode.eigenvalue == pytest.approx(state.lowest, rel=1e-10)
+    assert mode.eigenvalue == pytest.approx(state.lowest_eigenvalue, rel=1e-10)
     assert mode.residual < 1e-13
     vector = field[held][:, : 3 if law.frictional else 2].ravel()
     assert np.linalg.norm(vector) == pytest.approx(1.0, rel=1e-12)
@@ -158,7 +161,7 @@ def test_the_lowest_mode_is_that_of_a_dense_spectrum(law, side):
 
 
 def test_few_grains_have_the_same_lowest_mode(monkeypatch):
-    balance = closest(B).after.balance
+    balance = narrowest(B).after.balance
     modes = []
     for small in (SMALL, 1000):
         monkeypatch.setattr("grainmodes.response.stability.SMALL", small)
@@ -170,8 +173,9 @@ def test_few_grains_have_the_same_lowest_mode(monkeypatch):
 
 @each_law
 def test_the_simulated_rate_is_that_of_linear_response(law):
-    state = closest(law).after
-    theory, simulation = rate_of(state), simulated_rate(state, closer(SMALL_STRAIN)[-1])
+    state = narrowest(law).after
+    finest = refined_steps(SMALL_STRAIN)[-1]
+    theory, simulation = nonaffine_rate(state), simulated_nonaffine_rate(state, finest)
     size = np.nanmax(np.abs(theory))
     assert_allclose(simulation, theory, rtol=0, atol=2e-7 * size)
     assert np.isnan(theory[:, 2]).all() == (not law.frictional)
@@ -205,13 +209,15 @@ def test_a_contact_that_does_not_turn_has_none():
     path = TangentialPath(contact(1.0, 0.0))
     assert path.follow(contact(1.0, 0.01)).error_largest < 3e-16
     assert path.follow(contact(1.0, 0.003)).error_largest < 3e-16
-    assert len(error(np.zeros((2, 2)), np.zeros((2, 2)))) == 0
+    assert len(normal_part(np.zeros((2, 2)), np.zeros((2, 2)))) == 0
 
 
 def errors(step: float) -> list:
-    walk = Walk.start(packing_of(B), Interaction.from_law(B), Shear(1e-3, step, step))
-    path = TangentialPath(walk.now.balance)
-    return [path.follow(now.balance) for _, now in steps(walk)]
+    run = QuasistaticRun.from_packing(
+        packing_for(B), Interaction.from_law(B), Shear(1e-3, step, step)
+    )
+    path = TangentialPath(run.state.balance)
+    return [path.follow(now.balance) for _, now in accepted_steps(run)]
 
 
 def test_the_integral_of_tangential_velocities_is_not_tangential():
@@ -231,7 +237,7 @@ def test_a_block_holds_the_first_sample_and_its_first_event(law):
     found = block(law).variables
     assert_array_equal(found["seed"], [2])
     assert (found["converged"][0], found["event_count"][0]) == (1, 1)
-    bracket = closest(law)
+    bracket = narrowest(law)
     for side in ("before", "after"):
         strain = getattr(bracket, side).strain
         assert found[f"event_strain_{side}"][0, 0] == strain

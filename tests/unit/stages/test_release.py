@@ -17,9 +17,9 @@ from grainmodes.ensemble.point import merge_blocks
 from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.release import Release
-from grainmodes.protocols.release.run import FRAMES, Run
-from grainmodes.stages.checkpoints import Keeping, of_run
-from grainmodes.stages.release import release_block, unstable_of
+from grainmodes.protocols.release.release_run import FRAMES, ReleaseRun
+from grainmodes.stages.checkpoints import CheckpointFiles, release_progress
+from grainmodes.stages.release import release_block, unstable_state
 from released import complex_pairs_block, state
 
 CHOICES = Release(duration=16.0, min_time=0.0, dampings=(1.0, 4.0), n_records=400, spectra=4)
@@ -33,7 +33,7 @@ def block():
 
 def test_the_state_of_the_pairs_is_taken_up_exactly():
     start, _, interaction = state()
-    found = unstable_of(complex_pairs_block(), 0)
+    found = unstable_state(complex_pairs_block(), 0)
     assert max(largest(net_force(found.packing, find_contacts(found.packing), interaction))) < 1e-14
     assert found.residual(interaction) < 1e-12
     np.testing.assert_array_equal(found.packing.fraction, start.packing.fraction)
@@ -111,7 +111,7 @@ def test_a_point_keeps_the_numbers_of_runs_and_no_records(block):
 
 
 def command(folder, name: str) -> list[str]:
-    release = {"duration": 5.0, "min_time": 0.0, "dampings": [1.0], "records": 300, "spectra": 3}
+    release = {"duration": 5.0, "min_time": 0.0, "dampings": [1.0], "n_records": 300, "spectra": 3}
     law = {"tangential": "smoothed_coulomb", "friction_coefficient": 10.0}
     settings = json.dumps({"contact_law": law, "protocol": {"release": release}})
     kt = repr(state()[1].kt)
@@ -122,13 +122,13 @@ def command(folder, name: str) -> list[str]:
 def test_a_killed_release_goes_on_and_ends_with_the_same_bytes(tmp_path):
     write_block(tmp_path / "pairs.nc", complex_pairs_block())
     assert main(command(tmp_path, "whole.nc")) == 0
-    run = subprocess.Popen(
+    process = subprocess.Popen(
         [sys.executable, "-c", MAIN, *command(tmp_path, "again.nc")], stderr=subprocess.DEVNULL
     )
-    while not list(tmp_path.glob(".again.nc.*.kept")) and run.poll() is None:
+    while not list(tmp_path.glob(".again.nc.*.checkpoint")) and process.poll() is None:
         time.sleep(0.01)
-    os.kill(run.pid, signal.SIGKILL)
-    run.wait()
+    os.kill(process.pid, signal.SIGKILL)
+    process.wait()
     assert not (tmp_path / "again.nc").exists()
     assert main(command(tmp_path, "again.nc")) == 0
     assert (tmp_path / "again.nc").read_bytes() == (tmp_path / "whole.nc").read_bytes()
@@ -138,13 +138,18 @@ def test_a_killed_release_goes_on_and_ends_with_the_same_bytes(tmp_path):
 
 def test_a_line_says_how_far_a_run_is(tmp_path, capsys):
     start, law, interaction = state()
-    keeping = Keeping(tmp_path / "x.nc", (law, CHOICES), -1.0, of_run)
-    run = keeping.kept("seed-0-0") or Run.begin(start, interaction, CHOICES)
+    checkpoints = CheckpointFiles(tmp_path / "x.nc", (law, CHOICES), -1.0, release_progress)
+    run = checkpoints.load("seed-0-0") or ReleaseRun.from_state(start, interaction, CHOICES)
     run.advance()
-    keeping.watch("seed-0-0", run)
+    checkpoints.save_if_due("seed-0-0", run)
     pattern = r"seed-0-0: 1 of \d+ steps, M = .*, \d+ steps per second, \d+ min left\n"
     assert re.fullmatch(pattern, capsys.readouterr().err)
-    assert Keeping(tmp_path / "x.nc", (law, CHOICES), 1.0, of_run).kept("seed-0-0").steps == 1
+    assert (
+        CheckpointFiles(tmp_path / "x.nc", (law, CHOICES), 1.0, release_progress)
+        .load("seed-0-0")
+        .steps
+        == 1
+    )
 
 
 def test_other_files_are_refused(tmp_path, capsys):
@@ -152,4 +157,4 @@ def test_other_files_are_refused(tmp_path, capsys):
     pairs.attributes["stage"] = "packings"
     write_block(tmp_path / "pairs.nc", pairs)
     assert main(command(tmp_path, "x.nc")) == 1
-    assert "expected pairs, got packings" in capsys.readouterr().err
+    assert "expected complex_pairs, got packings" in capsys.readouterr().err

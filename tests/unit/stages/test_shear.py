@@ -21,8 +21,8 @@ from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.shear.run import Walk
-from grainmodes.stages.checkpoints import Keeping, fingerprint
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
+from grainmodes.stages.checkpoints import CheckpointFiles, fingerprint, shear_progress
 from grainmodes.stages.rows import block_of
 from grainmodes.stages.samples import packed
 from grainmodes.stages.shear import shear_block
@@ -69,7 +69,7 @@ def test_an_event_can_be_taken_up_from_either_side(sheared):
         held = values[f"event_contact_i_{side}"][0, 0] >= 0
         history = History.of(
             *(values[f"event_{name}_{side}"][0, 0][held] for name in ("contact_i", "contact_j")),
-            values[f"event_slip_{side}"][0, 0][held],
+            values[f"event_spring_state_{side}"][0, 0][held],
         )
         state = Packing(
             np.ascontiguousarray(values[f"event_fraction_{side}"][0, 0].T),
@@ -93,14 +93,14 @@ def test_a_packing_that_is_not_jammed_has_no_curve(sheared):
 
 def test_a_sample_that_loses_its_rigidity_keeps_its_curve(monkeypatch):
     """And is not converged."""
-    advance, tries = Walk.advance, []
+    advance, tries = QuasistaticRun.advance, []
 
-    def give_up(walk):
-        tries.append(walk)
-        walk.ending = "the backbone lost its rigidity"
-        return len(tries) < 5 and advance(walk)
+    def give_up(run):
+        tries.append(run)
+        run.failure = "the backbone lost its rigidity"
+        return len(tries) < 5 and advance(run)
 
-    monkeypatch.setattr(Walk, "advance", give_up)
+    monkeypatch.setattr(QuasistaticRun, "advance", give_up)
     block = shear_block(packings(reference(SMALL)[1]), LAW, CHOICES)
     assert block.variables["converged"].tolist() == [0]
     assert block.variables["curve_count"].tolist() == [5]
@@ -121,52 +121,59 @@ def command(folder, name: str) -> list[str]:
 def test_a_killed_shear_goes_on_and_ends_with_the_same_bytes(tmp_path):
     write_block(tmp_path / "packings.nc", packings(reference(LOOSE)[1], reference(LOOSE)[1]))
     assert main(command(tmp_path, "whole.nc")) == 0
-    run = subprocess.Popen(
+    process = subprocess.Popen(
         [sys.executable, "-c", MAIN, *command(tmp_path, "again.nc")],
         stderr=subprocess.DEVNULL,
     )
-    while not list(tmp_path.glob(".again.nc.*.kept")) and run.poll() is None:
+    while not list(tmp_path.glob(".again.nc.*.checkpoint")) and process.poll() is None:
         time.sleep(0.01)
-    os.kill(run.pid, signal.SIGKILL)
-    run.wait()
+    os.kill(process.pid, signal.SIGKILL)
+    process.wait()
     assert not (tmp_path / "again.nc").exists()
     assert main(command(tmp_path, "again.nc")) == 0
     assert (tmp_path / "again.nc").read_bytes() == (tmp_path / "whole.nc").read_bytes()
     assert not list(tmp_path.glob(".again.nc.*"))
 
 
-def test_a_walk_of_other_choices_or_a_broken_file_is_passed_over(tmp_path):
-    walk = Walk.start(reference(SMALL)[1], Interaction.from_law(LAW), CHOICES)
-    keeping = Keeping(tmp_path / "x.nc", (LAW, CHOICES), seconds=-1.0)
-    keeping.kept("seed-0")
-    keeping.watch("seed-0", walk)
-    assert Keeping(tmp_path / "x.nc", (LAW, CHOICES), 1.0).kept("seed-0").now.units == 0
-    assert Keeping(tmp_path / "x.nc", (LAW, Shear()), 1.0).kept("seed-0") is None
-    (tmp_path / ".x.nc.seed-0.kept").write_bytes(b"nonsense")
-    assert Keeping(tmp_path / "x.nc", (LAW, CHOICES), 1.0).kept("seed-0") is None
+def files(folder, start: tuple, seconds: float = 1.0) -> CheckpointFiles:
+    """The checkpoints of a file in a folder."""
+    return CheckpointFiles(folder / "x.nc", start, seconds, shear_progress)
 
 
-def test_a_walk_from_another_packing_is_passed_over(tmp_path):
+def test_a_run_of_other_choices_or_a_broken_file_is_ignored(tmp_path):
+    run = QuasistaticRun.from_packing(reference(SMALL)[1], Interaction.from_law(LAW), CHOICES)
+    checkpoints = files(tmp_path, (LAW, CHOICES), -1.0)
+    checkpoints.load("seed-0")
+    checkpoints.save_if_due("seed-0", run)
+    assert files(tmp_path, (LAW, CHOICES), 1.0).load("seed-0").state.strain_units == 0
+    assert files(tmp_path, (LAW, Shear())).load("seed-0") is None
+    (tmp_path / ".x.nc.seed-0.checkpoint").write_bytes(b"nonsense")
+    assert files(tmp_path, (LAW, CHOICES)).load("seed-0") is None
+
+
+def test_a_run_from_another_packing_is_ignored(tmp_path):
     """Packings made anew in another way have the same name and place."""
     one = packings(reference(LOOSE)[1])
-    denser = packings(reference(LOOSE)[1].at(0.865))
-    marks = [fingerprint(block) for block in (one, one, denser)]
+    marks = [fingerprint(block) for block in (one, one, packings(reference(LOOSE)[1].at(0.865)))]
     assert marks[0] == marks[1] != marks[2]
-    keeping = Keeping(tmp_path / "x.nc", (LAW, CHOICES, marks[0]), seconds=-1.0)
-    keeping.kept("seed-0")
-    keeping.watch("seed-0", Walk.start(reference(SMALL)[1], Interaction.from_law(LAW), CHOICES))
-    again = [Keeping(tmp_path / "x.nc", (LAW, CHOICES, mark), 1.0).kept("seed-0") for mark in marks]
-    assert [walk is None for walk in again] == [False, False, True]
+    checkpoints = files(tmp_path, (LAW, CHOICES, marks[0]), -1.0)
+    checkpoints.load("seed-0")
+    checkpoints.save_if_due(
+        "seed-0",
+        QuasistaticRun.from_packing(reference(SMALL)[1], Interaction.from_law(LAW), CHOICES),
+    )
+    again = [files(tmp_path, (LAW, CHOICES, mark)).load("seed-0") for mark in marks]
+    assert [run is None for run in again] == [False, False, True]
 
 
-def test_a_line_says_how_far_a_walk_is(tmp_path, capsys):
-    keeping = Keeping(tmp_path / "x.nc", (LAW, CHOICES), seconds=-1.0)
-    walk = keeping.kept("seed-3") or Walk.start(
+def test_a_line_says_how_far_a_run_is(tmp_path, capsys):
+    checkpoints = files(tmp_path, (LAW, CHOICES), -1.0)
+    run = checkpoints.load("seed-3") or QuasistaticRun.from_packing(
         reference(SMALL)[1], Interaction.from_law(LAW), CHOICES
     )
-    while walk.now.strain < 0.005 or not walk.restartable:
-        walk.advance()
-    keeping.watch("seed-3", walk)
+    while run.state.strain < 0.005 or not run.restartable:
+        run.advance()
+    checkpoints.save_if_due("seed-3", run)
     line = capsys.readouterr().err
     pattern = r"seed-3: strain 0\.\d+ of 0\.1, \d+ events, \d+ states per second, \d+ min left\n"
     assert re.fullmatch(pattern, line)

@@ -13,8 +13,8 @@ from grainmodes.figures.shared.field_rows import joined
 from grainmodes.figures.shared.release_rows import COLUMNS as RUN
 from grainmodes.figures.shared.release_rows import Sample, caption, growing, one
 from grainmodes.figures.shared.selection import Options
-from grainmodes.protocols.release.outcome import linear
-from grainmodes.protocols.release.run import VISIBLE
+from grainmodes.parameters.release import DENSE_RECORDS_ONSET
+from grainmodes.protocols.release.growth_fit import in_growth_range
 
 CLOSE_TURNS = 6.0
 """Turns of 2π/ω_r that the upper panels show, if M is within the range of the fit so long."""
@@ -53,7 +53,7 @@ def _rows(sample: Sample) -> pd.DataFrame:
     for column, name in (("growth", "rate"), ("frequency", "frequency")):
         fitted = sample.of(f"displacement_{name}")[0]
         rows[f"{column}_error"] = fitted / sample.of(f"{name}_linear") - 1.0
-    rows["close_from"] = rows["time"].where(rows["m"] > VISIBLE).min()
+    rows["close_from"] = rows["time"].where(rows["m"] > DENSE_RECORDS_ONSET).min()
     return rows.assign(end_time=sample.of("end_time")[0])
 
 
@@ -91,7 +91,7 @@ def _close(axes: Axes, table: pd.DataFrame, column: str) -> float:
     """Some turns, in units of a power of ten; returns it."""
     turn = 2.0 * np.pi / table["frequency"].iloc[0]
     start = table["close_from"].iloc[0]
-    near = table[linear(table["m"].to_numpy())]
+    near = table[in_growth_range(table["m"].to_numpy())]
     near = near[near["time"].between(start, start + CLOSE_TURNS * turn)]
     x = near["time"] - start
     decade = 10.0 ** np.floor(np.log10(near[column].max()))

@@ -13,7 +13,7 @@ from grainmodes.figures.shared.field_rows import joined
 from grainmodes.figures.shared.release_rows import COLUMNS as RUN
 from grainmodes.figures.shared.release_rows import growing, samples
 from grainmodes.figures.shared.selection import MOST_CURVES, Options
-from grainmodes.protocols.release.growth import LINEAR
+from grainmodes.parameters.release import GROWTH_RANGE
 
 QUANTITIES = {
     "time": "time",
@@ -79,7 +79,7 @@ def _growing(axes: Axes, of: pd.DataFrame) -> None:
     time, start = of["rate"] * of["time"], of["pressure"].iloc[0]
     change = (of["pressure"] - start).abs() / start
     axes.semilogy(time, change, ".", color="k", ms=1.6)
-    peak = change[of["m"] < LINEAR[1]].idxmax()
+    peak = change[of["m"] < GROWTH_RANGE[1]].idxmax()
     line = change[peak] * np.exp(time - time[peak])
     axes.semilogy(time, line, color=appearance.TRANSLATIONAL, label=r"$e^{\omega_i t}$")
     axes.set(

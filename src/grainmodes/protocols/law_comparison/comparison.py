@@ -1,8 +1,8 @@
 """One packing sheared under several tangential laws: C, Sec. VIII, "How generic …".
 
 Every law starts from the same frictionless balance, s = 0, and goes its own way of quasistatic
-steps Δγ (`quasistatic`). On the way complex pairs of M⁻¹J are counted, on both sides of Coulomb's
-threshold (`one_sided`), and every state with a pair is released (`let_grow`).
+steps Δγ (`strain_step`). On the way complex pairs of M⁻¹J are counted, on both sides of Coulomb's
+threshold (`coulomb_threshold`), and every state with a pair is released (`simulated_growth`).
 
 What may make J asymmetric, and so pairs possible:
 
@@ -23,9 +23,14 @@ import numpy as np
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.release.simulated_growth import growth_rate
-from grainmodes.protocols.shear.one_sided import SLIPPING, STICKING, oscillation, slipping_contacts
-from grainmodes.protocols.shear.quasistatic import first_balance, step_to
+from grainmodes.protocols.release.simulated_growth import simulated_growth_rate
+from grainmodes.protocols.shear.coulomb_threshold import (
+    SLIPPING,
+    STICKING,
+    fastest_pair,
+    slipping_contacts,
+)
+from grainmodes.protocols.shear.strain_step import first_balance, step_to
 from grainmodes.relaxation.balance import Balance
 
 STATES = 20
@@ -56,11 +61,11 @@ class Seen(NamedTuple):
             balance.interaction,
         )
         slips, sticks = (
-            oscillation(packing, contacts, interaction, s) for s in (SLIPPING, STICKING)
+            fastest_pair(packing, contacts, interaction, s) for s in (SLIPPING, STICKING)
         )
         slipping = int(slipping_contacts(contacts, interaction).sum())
-        growth = growth_rate(packing, interaction, slips) if slips.pairs else np.nan
-        return cls(packing.strain, slips.pairs, sticks.pairs, slipping, slips.rate, growth)
+        growth = simulated_growth_rate(packing, interaction, slips) if slips.pairs else np.nan
+        return cls(packing.strain, slips.pairs, sticks.pairs, slipping, slips.growth_rate, growth)
 
 
 @dataclass

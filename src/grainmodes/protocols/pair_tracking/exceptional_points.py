@@ -30,8 +30,8 @@ import numpy as np
 from grainmodes.complex_pairs.plane import SETTLED, Plane, plane_near
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.shear.quasistatic import step_to
-from grainmodes.protocols.shear.state import network_changes
+from grainmodes.protocols.shear.events import count_network_changes
+from grainmodes.protocols.shear.strain_step import step_to
 from grainmodes.relaxation.balance import Balance
 
 NEVER, COALESCENCE, CONTACT_CHANGE, JUMP, LOST, UNDECIDED = range(6)
@@ -132,7 +132,7 @@ def _judged(pair: Side, other: Balance, jumped: bool, choices: Shear) -> Excepti
     ends = sorted((pair.strain, other.packing.strain))
     if jumped:
         return ExceptionalPoint(JUMP, *ends, np.mean(ends))
-    if any(network_changes(pair.balance, other)):
+    if any(count_network_changes(pair.balance, other)):
         return ExceptionalPoint(CONTACT_CHANGE, *ends, np.mean(ends))
     real = followed(pair, other)
     if real is None or real.is_pair:
@@ -154,7 +154,7 @@ def _branch(end: Side, origin: float, distances: np.ndarray, choices: Shear) -> 
         except ArithmeticError:
             return
         side = followed(now, balance)
-        if side is None or jumped or any(network_changes(end.balance, balance)):
+        if side is None or jumped or any(count_network_changes(end.balance, balance)):
             return
         if side.is_pair != end.is_pair:
             return

@@ -28,8 +28,8 @@ from typing import NamedTuple
 import numpy as np
 
 from grainmodes.packing.state import find_contacts
+from grainmodes.parameters.release import GROWTH_RANGE
 from grainmodes.protocols.pair_tracking.detection import Seen
-from grainmodes.protocols.release.growth import LINEAR
 from grainmodes.relaxation.balance import Balance
 
 FARTHEST = 0.1
@@ -53,7 +53,7 @@ def fastest_with_room(state: Seen, slower: float) -> Chosen | None:
     if not len(faster):
         return None
     room = rooms(state.balance, state.motions(faster))
-    roomy = room > LINEAR[1]
+    roomy = room > GROWTH_RANGE[1]
     if not roomy.any():
         return None
     best = int(np.argmax(np.where(roomy, growth[faster], 0.0)))

@@ -38,8 +38,8 @@ from grainmodes.protocols.pair_tracking.exceptional_points import (
     located,
 )
 from grainmodes.protocols.pair_tracking.linear_range import Chosen, fastest_with_room
-from grainmodes.protocols.shear.quasistatic import first_balance, step_to
-from grainmodes.protocols.shear.state import network_changes
+from grainmodes.protocols.shear.events import count_network_changes
+from grainmodes.protocols.shear.strain_step import first_balance, step_to
 from grainmodes.relaxation.balance import Balance
 
 
@@ -132,7 +132,7 @@ class PairWalk:
     def _follow(self, before: Seen, jumped: bool) -> None:
         """Hand every life on to its pair in the new state; end some and begin some."""
         common = dict(matched(before.planes, self.now.planes))
-        changed = any(network_changes(before.balance, self.now.balance))
+        changed = any(count_network_changes(before.balance, self.now.balance))
         kind = JUMP if jumped else UNDECIDED if changed else COALESCENCE
         step = before.strain, self.now.strain
         heirs = {common[old]: life for old, life in enumerate(self.alive) if old in common}

@@ -1,114 +1,117 @@
-"""What became of a release, from its records: C, Sec. VI A and B, Figs. 5 to 7.
+"""The outcome of a release, from its records: C, Sec. VI A and B, Figs. 5 to 7.
 
-| stage of C, Sec. VI B      | here                                                               |
+| stage of C, Sec. VI B      | how it is found here                                               |
 | -------------------------- | ------------------------------------------------------------------ |
-| exponential growth         | M between 1e-19 and 1e-11 d², where the laws of M and A are fitted |
-| its end                    | the first record whose M is half of the mean law off the law       |
-| contacts change            | the first record whose contacts are not those of the start         |
-| plateau                    | from that end to the second instability                            |
+| exponential growth         | M between 1e-19 and 1e-11 d², where M and A are fitted             |
+| end of the growth          | the first record whose M differs from the fit by half of its mean  |
+| change of contacts         | the first record whose contacts are not those of the start         |
+| plateau                    | from the end of the growth to the second instability               |
 | second instability         | the first record with M above ⟨ξ⟩², the mean overlap squared       |
-| the state it leads to      | means over the last tenth of the run                               |
+| final state                | means over the last tenth of the run                               |
 
-What did not happen has a time and an M of NaN.
+The onset of a stage that did not happen has a time and an M of NaN.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
 from grainmodes.packing.state import find_contacts
-from grainmodes.protocols.release.growth import LINEAR, UNKNOWN, Law, fitted
-from grainmodes.protocols.release.record import Record
-from grainmodes.protocols.release.run import Run
+from grainmodes.parameters.release import GROWTH_RANGE
+from grainmodes.protocols.release.growth_fit import NO_FIT, GrowthFit, fit_growth, in_growth_range
+from grainmodes.protocols.release.record import MotionRecord
+from grainmodes.protocols.release.release_run import ReleaseRun
 
-OFF = 0.5
-"""How far M may lie off its law, in parts of the mean law, while it still grows."""
+MAX_FIT_DEVIATION = 0.5
+"""Deviation of M from its fit, relative to the mean of the fit, up to which M still grows."""
 
-LAST = 0.1
-"""Part of a run, at its end, over which the state it leads to is averaged."""
+FINAL_PART = 0.1
+"""Part of a run, at its end, over which the final state is averaged."""
 
 
-class Moment(NamedTuple):
-    """A time of a run, and M then."""
+class Onset(NamedTuple):
+    """The time at which a stage begins, and M at that time in d²."""
 
     time: float
     square: float
 
 
-NEVER = Moment(np.nan, np.nan)
+NO_ONSET = Onset(np.nan, np.nan)
+"""The onset of a stage that did not happen."""
 
 
-class Fate(NamedTuple):
-    """The laws of M and A, the moments in the table above, and the means of every record's end."""
+class ReleaseOutcome(NamedTuple):
+    """The fits of M and A, the onsets of the later stages, the largest M, and the final state.
 
-    displacement: Law
-    rotation: Law
-    end: Moment
-    change: Moment
-    second: Moment
+    `end` is the end of the growth, `change` the first change of contacts, `second` the second
+    instability, and `after` holds the means of all records of the final state.
+    """
+
+    displacement: GrowthFit
+    rotation: GrowthFit
+    end: Onset
+    change: Onset
+    second: Onset
     largest: float
-    after: Record
+    after: MotionRecord
 
 
-def fate_of(run: Run) -> Fate:
-    """What became of a run that is done."""
-    of = columns(run.records)
-    square = of["mean_square_displacement"]
+def release_outcome(run: ReleaseRun) -> ReleaseOutcome:
+    """The outcome of a run that is done."""
+    series = record_series(run.records)
+    square, time = series["mean_square_displacement"], series["time"]
     displacement, rotation = (
-        _law(run, of, name) for name in ("mean_square_displacement", "mean_square_rotation")
+        _growth_fit(run, series, name)
+        for name in ("mean_square_displacement", "mean_square_rotation")
     )
     overlap = find_contacts(run.start.packing).overlap.mean()
-    last = of["time"] >= (1.0 - LAST) * of["time"][-1]
-    return Fate(
+    final = time >= (1.0 - FINAL_PART) * time[-1]
+    return ReleaseOutcome(
         displacement,
         rotation,
-        _end(of, displacement),
-        _first(of, of["changed"] > 0),
-        _first(of, square > overlap**2),
+        _end_of_growth(time, square, displacement),
+        _first_onset(time, square, series["changed"] > 0),
+        _first_onset(time, square, square > overlap**2),
         float(square.max()),
-        Record(*(float(values[last].mean()) for values in of.values())),
+        MotionRecord(*(float(values[final].mean()) for values in series.values())),
     )
 
 
-def columns(records: list[Record]) -> dict[str, np.ndarray]:
-    """Every quantity of the records, (R,)."""
-    return dict(zip(Record._fields, np.array(records, float).T, strict=True))
+def record_series(records: list[MotionRecord]) -> dict[str, np.ndarray]:
+    """Every quantity of the records by its name, (R,)."""
+    return dict(zip(MotionRecord._fields, np.array(records, float).T, strict=True))
 
 
-def linear(square: np.ndarray) -> np.ndarray:
-    """The records (R,) of the exponential growth, by their M."""
-    beyond = np.cumsum(square > LINEAR[1]) > 0
-    return (square > LINEAR[0]) & ~beyond
+def _growth_fit(run: ReleaseRun, series: Mapping[str, np.ndarray], name: str) -> GrowthFit:
+    """The fit of M or A, if M grew through the whole range in which it is fitted."""
+    square = series["mean_square_displacement"]
+    if not (square > GROWTH_RANGE[1]).any():
+        return NO_FIT
+    used = in_growth_range(square)
+    rate = run.start.damped_growth_rate(run.drag)
+    return fit_growth(series["time"][used], series[name][used], rate, run.start.frequency)
 
 
-def _law(run: Run, of: dict[str, np.ndarray], name: str) -> Law:
-    """The law of M or A, if M grew through all of the range in which it is fitted."""
-    used = linear(of["mean_square_displacement"])
-    if not (of["mean_square_displacement"] > LINEAR[1]).any():
-        return UNKNOWN
-    rate = run.start.rate_under(run.drag)
-    return fitted(of["time"][used], of[name][used], rate, run.start.frequency)
-
-
-def _end(of: dict[str, np.ndarray], law: Law) -> Moment:
-    """Where M leaves its law, with M of the law."""
-    used = linear(of["mean_square_displacement"])
-    if not np.isfinite(law.rate):
-        return NEVER
-    time, square = of["time"], of["mean_square_displacement"]
-    later = time >= time[used][-1]
+def _end_of_growth(time: np.ndarray, square: np.ndarray, fit: GrowthFit) -> Onset:
+    """When M leaves its fit, with the M of the fit."""
+    if not np.isfinite(fit.rate):
+        return NO_ONSET
+    later = time >= time[in_growth_range(square)][-1]
     with np.errstate(over="ignore"):
-        off = later & (np.abs(square - law.at(time)) > OFF * law.mean(time))
-    if not off.any():
-        return NEVER
-    end = float(time[np.argmax(off)])
-    return Moment(end, float(law.mean(end)))
+        deviates = np.abs(square - fit.at(time)) > MAX_FIT_DEVIATION * fit.mean(time)
+    left = later & deviates
+    if not left.any():
+        return NO_ONSET
+    end = float(time[np.argmax(left)])
+    return Onset(end, float(fit.mean(end)))
 
 
-def _first(of: dict[str, np.ndarray], happened: np.ndarray) -> Moment:
+def _first_onset(time: np.ndarray, square: np.ndarray, happened: np.ndarray) -> Onset:
+    """The first record for which `happened` (R,) is true."""
     if not happened.any():
-        return NEVER
+        return NO_ONSET
     place = np.argmax(happened)
-    return Moment(float(of["time"][place]), float(of["mean_square_displacement"][place]))
+    return Onset(float(time[place]), float(square[place]))

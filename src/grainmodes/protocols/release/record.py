@@ -1,11 +1,11 @@
-"""What is looked at while an unstable state moves: C (29), (30), Sec. VI B.
+"""What is recorded while an unstable state moves: C (29), (30), Sec. VI B.
 
     M = ⟨|Δr_i|²⟩,   A = ⟨Δθ_i²⟩,   Δ against the start, θ_i = 2 ℓ_i / d_i              C (29), (30)
     P = −(σ_xx + σ_yy)/2 = Σ_i P_i,   P_i = Σ_j r_ij · f_ij / (4 L²)                    C, Fig. 10
 
 A contact slides where |s| ≥ s* (C (8)). Stresses are those of the contacts alone; the kinetic
-energy stands beside them. Differences of positions are exact in the fractions, 2⁻⁶⁴ L, but the
-forces feel the rounding of distances, 1e-16 d, so that M means something above about 1e-30 d².
+energy is recorded separately. Differences of positions are exact in the fractions, 2⁻⁶⁴ L, but the
+forces feel the rounding of distances, 1e-16 d, so that M is meaningful above about 1e-30 d².
 """
 
 from __future__ import annotations
@@ -23,12 +23,20 @@ from grainmodes.relaxation.balance import most_loose
 from grainmodes.relaxation.dynamics import Motion
 
 
-class Record(NamedTuple):
-    """The state at a time, in numbers.
+class MotionRecord(NamedTuple):
+    """A moving state in numbers.
 
-    `changed` counts the contacts that the start lacks or has more, between grains that carry load
-    there: a loose grain may begin to touch at any time and bears nothing. `sliding` counts those at
-    Coulomb's threshold; the contact number is 2 C / N over all grains.
+    | field                    | unit        | meaning                                          |
+    | ------------------------ | ----------- | ------------------------------------------------ |
+    | time                     | t_0         | time since the release                           |
+    | mean_square_displacement | d²          | M                                                |
+    | mean_square_rotation     | 1           | A                                                |
+    | pressure, stress_xy, _yx | k_N d^(1/2) | P, σ_xy, σ_yx of the contacts                    |
+    | contact_number           | 1           | 2 C / N over all grains                          |
+    | sliding                  | 1           | number of contacts at Coulomb's threshold        |
+    | changed                  | 1           | number of contacts by which the state differs    |
+    |                          |             | from the start (`count_changed_contacts`)        |
+    | kinetic_energy           | k_N d^(5/2) | Σ_i m_i (|ṙ_i|² + ℓ̇_i²/2)/2                     |
     """
 
     time: float
@@ -43,51 +51,61 @@ class Record(NamedTuple):
     kinetic_energy: float
 
 
-def record(time: float, now: Motion, start: Packing, interaction: Interaction) -> Record:
-    """Look at a moving packing that has left `start`, at rest and with the same grains."""
-    packing, contacts = now.packing, find_contacts(now.packing)
-    moved = nonaffine_motion(start, packing)
+def record_motion(
+    time: float, motion: Motion, start: Packing, interaction: Interaction
+) -> MotionRecord:
+    """Record a moving packing that left `start`, a state at rest of the same grains."""
+    packing, contacts = motion.packing, find_contacts(motion.packing)
+    displacement = nonaffine_motion(start, packing)
     sigma = stress(packing, contacts, interaction)
-    return Record(
+    return MotionRecord(
         time,
-        float((moved[:, :2] ** 2).sum(axis=1).mean()),
-        float(((2.0 * moved[:, 2] / packing.diameter) ** 2).mean()),
+        float((displacement[:, :2] ** 2).sum(axis=1).mean()),
+        float(((2.0 * displacement[:, 2] / packing.diameter) ** 2).mean()),
         -float(np.trace(sigma)) / 2.0,
         float(sigma[0, 1]),
         float(sigma[1, 0]),
         2.0 * len(contacts.i) / packing.n,
         int(sliding(contacts, interaction).sum()),
-        changes(contacts, find_contacts(start), packing.n, interaction),
-        0.5 * float((generalized_mass(packing.mass) * now.velocity**2).sum()),
+        count_changed_contacts(contacts, find_contacts(start), packing.n, interaction),
+        0.5 * float((generalized_mass(packing.mass) * motion.velocity**2).sum()),
     )
 
 
-def changes(now: Contacts, before: Contacts, n: int, interaction: Interaction) -> int:
-    """Contacts gained and lost between the grains that carried load before."""
+def count_changed_contacts(
+    contacts: Contacts, before: Contacts, n: int, interaction: Interaction
+) -> int:
+    """Number of contacts gained and lost between the grains that carried load before.
+
+    Rattlers do not count: a rattler may begin to touch at any time, and bears no load.
+    """
     held = ~rattlers(before, n, most_loose(interaction))
-    return len(np.setxor1d(*(_pairs(of.among(held)) for of in (now, before)), assume_unique=True))
+    keys = (
+        found.i.astype(np.int64) << 32 | found.j
+        for found in (contacts.among(held), before.among(held))
+    )
+    return len(np.setxor1d(*keys, assume_unique=True))
 
 
-class Burden(NamedTuple):
-    """Contacts (N,) and P_i (N,) of every grain, r_ij · f_ij (C,) of every contact."""
+class GrainStress(NamedTuple):
+    """How the contacts load the grains.
+
+    `contacts` (N,) is the number of contacts of every grain, `pressure` (N,) its P_i in
+    k_N d^(1/2), and `binary` (C,) the r_ij · f_ij of every contact in k_N d^(5/2).
+    """
 
     contacts: np.ndarray
     pressure: np.ndarray
     binary: np.ndarray
 
 
-def burden(packing: Packing, interaction: Interaction) -> Burden:
-    """Contact numbers and pressures, grain by grain and contact by contact: C, Figs. 9 and 10."""
+def grain_stress(packing: Packing, interaction: Interaction) -> GrainStress:
+    """Contact numbers and pressures of all grains and contacts: C, Figs. 9 and 10."""
     contacts = find_contacts(packing)
     force = forces_on_i(contacts, interaction)[:, :2]
     binary = np.einsum("ca,ca->c", force, contacts.normal) * contacts.distance
-    of_grain = [
+    numbers, sums = (
         np.bincount(contacts.i, weights, packing.n) + np.bincount(contacts.j, weights, packing.n)
         for weights in (np.ones(len(binary)), binary)
-    ]
-    return Burden(of_grain[0].astype(int), of_grain[1] / (4.0 * packing.box_length**2), binary)
-
-
-def _pairs(contacts: Contacts) -> np.ndarray:
-    """One number for every pair of grains, the same in any packing."""
-    return contacts.i.astype(np.int64) << 32 | contacts.j
+    )
+    return GrainStress(numbers.astype(int), sums / (4.0 * packing.box_length**2), binary)

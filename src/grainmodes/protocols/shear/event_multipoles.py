@@ -18,32 +18,31 @@ from grainmodes.packing.state import Packing
 QUADRUPOLE = 2
 """m of four domains."""
 
-OTHERS = (1, 3, 4)
-"""m that p_2 is held against."""
+OTHER_MULTIPOLES = (1, 3, 4)
+"""m with which p_2 is compared."""
 
 
-def rotational_poles(packing: Packing, displacement: np.ndarray) -> tuple[float, float]:
-    """p_2 of an event, and the mean of p_1, p_3 and p_4; NaN where nothing turns.
+def rotational_multipoles(packing: Packing, displacement: np.ndarray) -> tuple[float, float]:
+    """p_2 of an event, and the mean of p_1, p_3 and p_4; NaN where no grain turns.
 
     Args:
-        packing: the state after it.
-        displacement: (Δr̊, Δℓ̊) of every grain, (N, 3) in d; (N, 2) where friction does not exist.
+        packing: the state after the event.
+        displacement: (Δr̊, Δℓ̊) of every grain, (N, 3) in d; (N, 2) without friction.
     """
     if displacement.shape[1] < 3:
         return np.nan, np.nan
     centre = np.argmax(np.hypot(displacement[:, 0], displacement[:, 1]))
-    apart = _from(packing, centre)
-    distance = np.hypot(apart[:, 0], apart[:, 1])
+    s_x, s_y = (packing.fraction - packing.fraction[:, [centre]]) * FRACTION_UNIT
+    x, y = (s_x + packing.strain * s_y) * packing.box_length, s_y * packing.box_length
+    distance = np.hypot(x, y)
     near = (distance > 0.0) & (distance < 0.5 * packing.box_length)
-    angle, turn = np.arctan2(apart[near, 1], apart[near, 0]), displacement[near, 2]
-    whole = np.abs(turn).sum()
-    if whole == 0.0:
+    angle, turn = np.arctan2(y[near], x[near]), displacement[near, 2]
+    total = np.abs(turn).sum()
+    if total == 0.0:
         return np.nan, np.nan
-    pole = {m: np.abs(turn @ np.exp(1j * m * angle)) ** 2 / whole**2 for m in (QUADRUPOLE, *OTHERS)}
-    return float(pole[QUADRUPOLE]), float(np.mean([pole[m] for m in OTHERS]))
-
-
-def _from(packing: Packing, grain: int) -> np.ndarray:
-    """r⃗ of every grain from one of them, the nearest image, (N, 2) in d."""
-    s_x, s_y = (packing.fraction - packing.fraction[:, [grain]]) * FRACTION_UNIT
-    return np.stack([s_x + packing.strain * s_y, s_y], axis=1) * packing.box_length
+    multipole = {
+        m: np.abs(turn @ np.exp(1j * m * angle)) ** 2 / total**2
+        for m in (QUADRUPOLE, *OTHER_MULTIPOLES)
+    }
+    others = np.mean([multipole[m] for m in OTHER_MULTIPOLES])
+    return float(multipole[QUADRUPOLE]), float(others)

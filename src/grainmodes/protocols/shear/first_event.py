@@ -1,9 +1,9 @@
-"""The first event of a shear, bracketed ever closer: B, Appendix B, Figs. 11 and 12.
+"""The first event of a shear in ever narrower brackets: B, Appendix B, Figs. 11 and 12.
 
-Every bracket is that of a walk of its own from γ = 0, Δγ_Th = Δγ_in 10^-k. Without friction a
-balance does not depend on the path, and each bracket lies within the coarser ones. With friction an
-affine step may open a contact that a shorter one would have kept; its spring is lost, and the event
-comes early, by less than the step. So a bracket may end below a finer one.
+Every bracket is found by a run of its own from γ = 0, with Δγ_Th = Δγ_in 10^-k. Without friction a
+balance does not depend on the path, and each bracket lies within the wider ones. With friction an
+affine step may open a contact that a shorter step would have kept. The spring of this contact is
+lost, and the event comes early, by less than the step. So a bracket may end below a narrower one.
 """
 
 from __future__ import annotations
@@ -11,88 +11,80 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-import numpy as np
-
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.shear.run import Walk, steps_per_grid
-from grainmodes.protocols.shear.state import Event, Point, State
+from grainmodes.protocols.shear.events import PlasticEvent
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun, units_per_step
+from grainmodes.protocols.shear.sheared_state import CurvePoint, ShearedState
 
-DECADES = 7
-"""Brackets of an event: Δγ_Th from Δγ_in down to 1e-6 of it, in B from 1e-4 to 1e-10."""
+BRACKET_COUNT = 7
+"""Number of brackets: Δγ_Th from Δγ_in down to 1e-6 of it, in B from 1e-4 to 1e-10."""
 
-AROUND = 2
+CURVE_MARGIN = 2
 """Steps Δγ_in of the curve that are kept on both sides of an event."""
 
 
 @dataclass(frozen=True)
 class Bracket:
-    """The first event between two states, and the curve around it.
+    """The first event between the states `before` and `after`, and the curve around it.
 
-    Without an event `before` is where the walk ended.
+    Without an event `before` is the last state of the run.
     """
 
     min_step: float
-    before: State
-    curve: list[Point]
-    event: Event | None = None
-    after: State | None = None
+    before: ShearedState
+    curve: list[CurvePoint]
+    event: PlasticEvent | None = None
+    after: ShearedState | None = None
 
 
-def closer(choices: Shear) -> list[Shear]:
+def refined_steps(choices: Shear) -> list[Shear]:
     """The same shear with every Δγ_Th, the largest first."""
-    return [replace(choices, min_step=choices.step / 10**k) for k in range(DECADES)]
+    return [replace(choices, min_step=choices.step / 10**k) for k in range(BRACKET_COUNT)]
 
 
-def steps(walk: Walk) -> Iterator[tuple[State, State]]:
-    """Every step that a walk takes, as the states before and after it, up to its end."""
-    while not walk.done:
-        before = walk.now
-        if not walk.advance():
+def accepted_steps(run: QuasistaticRun) -> Iterator[tuple[ShearedState, ShearedState]]:
+    """Let a run go on, and yield the states before and after every step that it accepts."""
+    while not run.done:
+        before = run.state
+        if not run.advance():
             return
-        if walk.now is not before:
-            yield before, walk.now
+        if run.state is not before:
+            yield before, run.state
 
 
-def brackets(packing: Packing, interaction, choices: Shear) -> list[Bracket]:
-    """The first event at every Δγ_Th, the largest first.
+def bracket_first_event(
+    packing: Packing, interaction: Interaction, choices: Shear
+) -> list[Bracket]:
+    """The first event of a shear at every Δγ_Th, the largest first.
 
-    Up to the step with the event all walks are the same, and are walked once.
+    Up to the step that contains the event all runs are the same, and are computed once.
 
     Raises:
         ArithmeticError: the packing has no stable balance.
     """
-    first, *rest = closer(choices)
-    found = [bracketed(Walk.start(packing, interaction, first))]
+    widest, *narrower = refined_steps(choices)
+    found = [run_to_first_event(QuasistaticRun.from_packing(packing, interaction, widest))]
     start = found[0].before
     curve = [point for point in found[0].curve if point.strain <= start.strain]
-    for decade, of in enumerate(rest, start=1):
-        now = replace(start, units=start.units * 10**decade)
-        found.append(bracketed(Walk(now, of, steps_per_grid(of), curve=curve.copy())))
+    for decade, refined in enumerate(narrower, start=1):
+        state = replace(start, strain_units=start.strain_units * 10**decade)
+        run = QuasistaticRun(state, refined, units_per_step(refined), curve=curve.copy())
+        found.append(run_to_first_event(run))
     return found
 
 
-def bracket_ends(found: list[Bracket]) -> dict[str, list[float]]:
-    """Both sides of the first event in every bracket; NaN where there is no event."""
-    return {
-        "bracket_min_step": [b.min_step for b in found],
-        "bracket_strain_before": [b.before.strain if b.event else np.nan for b in found],
-        "bracket_strain_after": [b.after.strain if b.event else np.nan for b in found],
-    }
-
-
-def bracketed(walk: Walk) -> Bracket:
-    """The first event of a walk, which then goes on for `AROUND` steps."""
-    for before, after in steps(walk):
-        if walk.events:
-            event, width = walk.events[0], AROUND * walk.choices.step
-            _go_on(walk, after.strain + width)
-            curve = [p for p in walk.curve if abs(p.strain - after.strain) < 1.001 * width]
-            return Bracket(walk.choices.min_step, before, curve, event, after)
-    return Bracket(walk.choices.min_step, walk.now, walk.curve[-1:])
-
-
-def _go_on(walk: Walk, strain: float) -> None:
-    for _, now in steps(walk):
-        if now.strain >= strain:
-            return
+def run_to_first_event(run: QuasistaticRun) -> Bracket:
+    """The first event of a run, which then goes on for `CURVE_MARGIN` steps."""
+    min_step, width = run.choices.min_step, CURVE_MARGIN * run.choices.step
+    for before, after in accepted_steps(run):
+        if not run.events:
+            continue
+        event = run.events[0]
+        for _, state in accepted_steps(run):
+            if state.strain >= after.strain + width:
+                break
+        curve = [point for point in run.curve if abs(point.strain - after.strain) < 1.001 * width]
+        return Bracket(min_step, before, curve, event, after)
+    return Bracket(min_step, run.state, run.curve[-1:])

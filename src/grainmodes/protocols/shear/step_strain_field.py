@@ -2,7 +2,7 @@
 
     u = [Δr̊(Δγ) − Δr̊(−Δγ)] / 2Δγ
 
-A takes the forward difference; the central one leaves an error of second order.
+A takes the forward difference; the central difference leaves an error of second order.
 """
 
 from __future__ import annotations
@@ -19,19 +19,21 @@ from grainmodes.protocols.shear.step_strain import relaxed_steps
 def simulated_field(
     packing: Packing, interaction: Interaction, protocol: StepStrain, threshold: int = 2
 ) -> np.ndarray:
-    """u from step strains to both sides, relaxed by the full non-linear forces; (N, 3) in d.
+    """u of steps ±Δγ, relaxed by the full non-linear forces, (N, 3) in d, NaN on rattlers.
 
     Raises:
         ArithmeticError: a relaxation did not reach its force tolerance.
     """
-    gone = rattlers(find_contacts(packing), packing.n, threshold)
-    backbone = packing.without(gone)
+    is_rattler = rattlers(find_contacts(packing), packing.n, threshold)
+    backbone = packing.without(is_rattler)
     steps = relaxed_steps(backbone, interaction, protocol)
     for step in steps:
         if not step.converged:
             worst = max(step.max_force, step.max_torque)
-            raise ArithmeticError(f"step strain: {worst:.1e} is left after {step.iterations} steps")
+            raise ArithmeticError(
+                f"step strain: max|F| = {worst:.1e}, {step.iterations} iterations"
+            )
     forward, backward = (nonaffine_motion(backbone, step.packing) for step in steps)
     u = (forward - backward) / (2.0 * protocol.strain)
     u[:, :2] -= u[:, :2].mean(axis=0)
-    return on_all_grains(u, gone)
+    return on_all_grains(u, is_rattler)

@@ -11,12 +11,12 @@ With φ the angle of the contact and φ_e its angle in the end, V·n = ± ∫ si
 | V is tangential, Err = 0                     | to zeroth order in the rotation of contacts |
 | V is as long as s                            | to first order                              |
 
-A contact that slides evenly while it turns by α has Err = sin(α/2); one whose s has gone forth and
+A contact that slides evenly while it turns by α has Err = sin(α/2). One whose s has gone forth and
 back has an Err of any size up to 1, as |V| passes 0 while V·n does not. So the second term of
-B (10) does not vanish; s, which turns with the contact, needs no such term.
+B (10) does not vanish. s itself turns with the contact and needs no such term.
 
-V is summed along the steps of a walk with t halfway between both ends of each, to second order in
-the step. Where a law lets springs slip, ds is what they keep.
+V is summed along the steps of a shear, with t in the middle between both ends of each step, to
+second order in the step. Where a law lets springs slip, ds is the part that the springs keep.
 """
 
 from __future__ import annotations
@@ -30,10 +30,13 @@ from grainmodes.relaxation.balance import Balance
 
 
 class PathError(NamedTuple):
-    """Err and its like over all contacts with V ≠ 0 of one state; NaN where there is none.
+    """Err and related numbers over all contacts with V ≠ 0 of one state; NaN if there are none.
 
-    `error_increment` is the largest of the last step alone, against its own n; a turn is the angle
-    between n now and n when the contact closed, a length is ||V| − |s|| / |s|.
+    | field           | meaning                                                             |
+    | --------------- | ------------------------------------------------------------------- |
+    | error_increment | the largest Err of the last step alone, against n in its middle     |
+    | turn_median     | the angle between n now and n when the contact closed               |
+    | length_median   | ||V| − |s|| / |s|                                                   |
     """
 
     strain: float
@@ -45,66 +48,61 @@ class PathError(NamedTuple):
 
 
 class TangentialPath:
-    """V of every contact, carried from state to state."""
+    """V of every contact along a shear, (C, 2) in d; it starts as s t of the first balance."""
 
     def __init__(self, balance: Balance):
         contacts = balance.contacts
-        self._key, self._contacts = _keys(balance), contacts
+        self._keys, self._contacts = _contact_keys(balance), contacts
         self._path = contacts.displacement[:, None] * contacts.tangent
-        self._first = contacts.normal
+        self._first_normal = contacts.normal
 
     def follow(self, balance: Balance) -> PathError:
         """Go on to the next state; a contact that has closed begins with V = 0."""
-        contacts, key = balance.contacts, _keys(balance)
-        new, old = _matched(key, self._key)
-        middle, slid = contacts.normal.copy(), contacts.displacement.copy()
+        contacts, keys = balance.contacts, _contact_keys(balance)
+        _, new, old = np.intersect1d(keys, self._keys, assume_unique=True, return_indices=True)
+        middle, slide = contacts.normal.copy(), contacts.displacement.copy()
         middle[new] += self._contacts.normal[old]
         middle /= np.hypot(*middle.T)[:, None]
-        slid[new] -= self._contacts.displacement[old]
-        step = slid[:, None] * np.stack([middle[:, 1], -middle[:, 0]], axis=1)
-        path, first = step.copy(), contacts.normal.copy()
+        slide[new] -= self._contacts.displacement[old]
+        step = slide[:, None] * np.stack([middle[:, 1], -middle[:, 0]], axis=1)
+        path, first_normal = step.copy(), contacts.normal.copy()
         path[new] += self._path[old]
-        first[new] = self._first[old]
-        self._key, self._contacts, self._path, self._first = key, contacts, path, first
+        first_normal[new] = self._first_normal[old]
+        self._keys, self._contacts = keys, contacts
+        self._path, self._first_normal = path, first_normal
         return PathError(
             balance.packing.strain,
-            *_spread(error(path, contacts.normal)),
-            _spread(error(step, middle))[0],
-            _spread(_turn(first, contacts))[1],
-            _spread(_length(path, contacts))[1],
+            *_largest_and_median(normal_part(path, contacts.normal)),
+            _largest_and_median(normal_part(step, middle))[0],
+            _largest_and_median(_turn(first_normal, contacts.normal))[1],
+            _largest_and_median(_length_difference(path, contacts))[1],
         )
 
 
-def error(path: np.ndarray, normal: np.ndarray) -> np.ndarray:
-    """|V·n| / |V| of every contact with V ≠ 0: B (A1)."""
+def normal_part(path: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    """Err = |V·n| / |V| of every contact with V ≠ 0, for V (C, 2) and n (C, 2): B (A1)."""
     length = np.hypot(*path.T)
     moved = length > 0.0
     return np.abs(np.sum(path * normal, axis=1))[moved] / length[moved]
 
 
-def _turn(first: np.ndarray, contacts: Contacts) -> np.ndarray:
-    now = contacts.normal
-    cross = first[:, 0] * now[:, 1] - first[:, 1] * now[:, 0]
-    return np.abs(np.arctan2(cross, np.sum(first * now, axis=1)))
+def _turn(before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """Angle between two normals (C, 2) of every contact, (C,)."""
+    cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    return np.abs(np.arctan2(cross, np.sum(before * after, axis=1)))
 
 
-def _length(path: np.ndarray, contacts: Contacts) -> np.ndarray:
+def _length_difference(path: np.ndarray, contacts: Contacts) -> np.ndarray:
+    """||V| − |s|| / |s| of every contact with s ≠ 0."""
     s = np.abs(contacts.displacement)
     return np.abs(np.hypot(*path.T) - s)[s > 0.0] / s[s > 0.0]
 
 
-def _spread(values: np.ndarray) -> tuple[float, float]:
-    """The largest and the median."""
+def _largest_and_median(values: np.ndarray) -> tuple[float, float]:
     return (float(values.max()), float(np.median(values))) if len(values) else (np.nan, np.nan)
 
 
-def _keys(balance: Balance) -> np.ndarray:
-    """One number for every contact, ascending."""
+def _contact_keys(balance: Balance) -> np.ndarray:
+    """One number for every contact, ascending, (C,) int64."""
     contacts = balance.contacts
     return contacts.i.astype(np.int64) * balance.packing.n + contacts.j
-
-
-def _matched(key: np.ndarray, before: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Places of the contacts that were there before, now and then."""
-    _, new, old = np.intersect1d(key, before, assume_unique=True, return_indices=True)
-    return new, old

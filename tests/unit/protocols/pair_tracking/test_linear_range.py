@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from grainmodes.packing.state import find_contacts, nonaffine_motion
-from grainmodes.parameters.release import Release
+from grainmodes.parameters.release import GROWTH_RANGE, Release
 from grainmodes.protocols.pair_tracking.detection import ByLapack, Seen, seen_by
 from grainmodes.protocols.pair_tracking.linear_range import fastest_with_room, rooms
-from grainmodes.protocols.release.growth import LINEAR
-from grainmodes.protocols.release.outcome import fate_of
+from grainmodes.protocols.release.outcome import release_outcome
 from grainmodes.relaxation.balance import Balance
 from released import released, state
 
@@ -112,8 +111,8 @@ def test_a_state_next_to_a_change_of_contacts_is_passed_over():
     assert len(narrow.pairs.value) > 0
     chosen = fastest_with_room(wide, 0.0)
     assert chosen.growth == wide.pairs.growth.max() == wide.pairs.growth[chosen.place]
-    assert chosen.growth == pytest.approx(state()[0].rate)
-    assert chosen.room > LINEAR[1]
+    assert chosen.growth == pytest.approx(state()[0].growth_rate)
+    assert chosen.room > GROWTH_RANGE[1]
     assert fastest_with_room(narrow, 0.0) is None
     assert fastest_with_room(wide, chosen.growth) is None
 
@@ -127,7 +126,7 @@ def test_of_the_pairs_of_a_state_the_fastest_with_room_is_taken(monkeypatch):
     fastest = np.argmax(growth)
     assert room[fastest] < room.max()
     monkeypatch.setattr(
-        "grainmodes.protocols.pair_tracking.linear_range.LINEAR", (0.0, room[fastest])
+        "grainmodes.protocols.pair_tracking.linear_range.GROWTH_RANGE", (0.0, room[fastest])
     )
     chosen = fastest_with_room(equilibrium, 0.0)
     assert chosen.growth == growth[room > room[fastest]].max()
@@ -138,5 +137,7 @@ def test_a_release_changes_its_contacts_where_linear_theory_says():
     """Within a factor of three of M: it is looked at now and then, and M swings."""
     start, _, _ = state()
     expected = rooms(balance(), start.mode[:, :, None])[0]
-    fate = fate_of(released(Release(duration=22.0, min_time=0.0, n_records=2000, spectra=0)))
-    assert expected / 3.0 < fate.change.square < 3.0 * expected
+    outcome = release_outcome(
+        released(Release(duration=22.0, min_time=0.0, n_records=2000, spectra=0))
+    )
+    assert expected / 3.0 < outcome.change.square < 3.0 * expected

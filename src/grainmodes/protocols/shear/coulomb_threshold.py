@@ -1,19 +1,19 @@
-"""J on both sides of Coulomb's threshold, and what grows fastest: C (11)–(13), Sec. VIII.
+"""J and its complex pairs on both sides of Coulomb's threshold: C (11)–(13), Sec. VIII.
 
     M q̈ = −J q,   M⁻¹J u = λ u,   iω = −i λ^(1/2) = ω_i − iω_r grows where Im λ > 0       (12)
 
-A sharp spring at its threshold slips if pushed on and sticks if pulled back, so that J, which does
-not exist there, has a limit from either side. They are those of the same contacts with
+A sharp spring at its threshold slips if pushed on and sticks if pulled back. J does not exist
+there, but has a limit from either side. The limits are the J of the same contacts with
 
     slipping   s → (1 + ε) s        sticking   s → (1 − ε) s        h alike
 
-whose forces are the same to ε. Every other spring, and every smooth law, has one J.
+whose forces differ by ε only. Every other spring, and every smooth law, has one J.
 
-| C        | name              | shape, type              |
-| -------- | ----------------- | ------------------------ |
-| λ        | eigenvalue        | complex, 0 without pairs |
-| u        | mode              | (N, 3) complex, of q     |
-| ω_r, ω_i | frequency, rate   | float, 1/t_0             |
+| C        | name                   | shape, unit              |
+| -------- | ---------------------- | ------------------------ |
+| λ        | eigenvalue             | complex, 0 without pairs |
+| u        | fastest_mode           | (N, 3) complex, of q     |
+| ω_r, ω_i | frequency, growth_rate | float, 1/t_0             |
 """
 
 from __future__ import annotations
@@ -32,21 +32,25 @@ from grainmodes.packing.state import Packing
 from grainmodes.response.stability import REAL
 
 SLIPPING, STICKING = 1.0, -1.0
+"""The side of the threshold, as the sign of the change of |s|."""
 
-EDGE = 1e-9
+RELATIVE_OFFSET = 1e-9
 """ε: well above the rounding of a spring that has slipped, well below any other distance."""
 
 
-class Oscillation(NamedTuple):
-    """The complex pairs of a J, and of them the one that grows fastest."""
+class FastestPair(NamedTuple):
+    """The number of complex pairs of a J, and the pair among them that grows fastest.
+
+    `highest_frequency` is the largest |λ|^(1/2) of all eigenvalues, in 1/t_0.
+    """
 
     pairs: int
     eigenvalue: complex
-    stiffest: float
+    highest_frequency: float
 
     @property
-    def rate(self) -> float:
-        """ω_i; 0 where there is no pair."""
+    def growth_rate(self) -> float:
+        """ω_i; 0 if there is no pair."""
         return float(np.sqrt(complex(self.eigenvalue)).imag)
 
     @property
@@ -57,49 +61,53 @@ class Oscillation(NamedTuple):
 
 def beside_threshold(contacts: Contacts, side: float) -> Contacts:
     """The contacts with springs a little longer (`SLIPPING`) or shorter (`STICKING`)."""
-    return replace(contacts, spring_state=(1.0 + side * EDGE) * contacts.displacement)
+    s = (1.0 + side * RELATIVE_OFFSET) * contacts.displacement
+    return replace(contacts, spring_state=s)
 
 
 def slipping_contacts(contacts: Contacts, interaction: Interaction) -> np.ndarray:
-    """Contacts at Coulomb's threshold or beyond, where ∂f_T/∂s = 0 on the slipping side; (C,)."""
+    """Contacts at or beyond Coulomb's threshold, where ∂f_T/∂s = 0 if they slip; (C,) bool."""
     return stiffness_of(beside_threshold(contacts, SLIPPING), interaction)[:, 2, 2] == 0.0
 
 
-def oscillation(
+def fastest_pair(
     packing: Packing, contacts: Contacts, interaction: Interaction, side: float
-) -> Oscillation:
+) -> FastestPair:
     """The complex pairs of M⁻¹J on one side, by LAPACK.
 
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
-    values = scipy.linalg.eigvals(_scaled(packing, contacts, interaction, side), overwrite_a=True)
-    fastest = _fastest(values)
-    stiffest = float(np.sqrt(np.abs(values).max()))
+    matrix = _dense_jacobian(packing, contacts, interaction, side)
+    values = scipy.linalg.eigvals(matrix, overwrite_a=True)
+    fastest = _place_of_fastest(values)
+    highest_frequency = float(np.sqrt(np.abs(values).max()))
     pairs = int(np.count_nonzero(values.imag > REAL))
-    return Oscillation(pairs, complex(values[fastest]) if pairs else 0.0, stiffest)
+    return FastestPair(pairs, complex(values[fastest]) if pairs else 0.0, highest_frequency)
 
 
-def growing_mode(
+def fastest_mode(
     packing: Packing, contacts: Contacts, interaction: Interaction, side: float
 ) -> np.ndarray:
-    """u of the pair that grows fastest, max|u| = 1; (N, 3) complex.
+    """u of the pair that grows fastest, (N, 3) complex with max|u| = 1.
 
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
-    values, vectors = scipy.linalg.eig(_scaled(packing, contacts, interaction, side))
-    u = vectors[:, _fastest(values)].reshape(-1, 3) / root_mass(packing.mass)
+    values, vectors = scipy.linalg.eig(_dense_jacobian(packing, contacts, interaction, side))
+    u = vectors[:, _place_of_fastest(values)].reshape(-1, 3) / root_mass(packing.mass)
     return u / np.abs(u).max()
 
 
-def _fastest(values: np.ndarray) -> int:
+def _place_of_fastest(values: np.ndarray) -> int:
     """Place of the eigenvalue of a pair with the largest ω_i."""
     return int(np.argmax(np.where(values.imag > REAL, np.sqrt(values.astype(complex)).imag, -1.0)))
 
 
-def _scaled(packing: Packing, contacts: Contacts, interaction: Interaction, side: float):
-    """M^(−1/2) J M^(−1/2) on one side, dense (3N, 3N)."""
+def _dense_jacobian(
+    packing: Packing, contacts: Contacts, interaction: Interaction, side: float
+) -> np.ndarray:
+    """The mass-weighted Jacobian M^(−1/2) J M^(−1/2) on one side, dense (3N, 3N)."""
     stiffness = stiffness_of(beside_threshold(contacts, side), interaction)
     matrix = assemble(stiffness, contacts.i, contacts.j, packing.n)
     return mass_weighted_jacobian(matrix, packing.mass).toarray()

@@ -1,7 +1,7 @@
-"""A balance with a complex pair of M⁻¹J, how fast it is left, and along what: C (12), (22)–(28).
+"""A balance with a complex pair of M⁻¹J, its growth rate and its mode: C (12), (22)–(28).
 
     M⁻¹J u^m = λ^m u^m,   u^m = u_r + iu_i,   λ^m = λ_r + iλ_i,   ω_r + iω_i = (λ^m)^(1/2)
-    ü^m = ü¹ + ü² = (λ_r u_r − λ_i u_i) + (λ_i u_r + λ_r u_i)            C (27), (28); (25) mended
+    ü^m = ü¹ + ü² = (λ_r u_r − λ_i u_i) + (λ_i u_r + λ_r u_i)        C (27), (28); (25) corrected
 
 From rest in q with q̇ along ü^m = Re(c u^m), c = λ_r + λ_i + i(λ_i − λ_r), the linear dynamics is
 
@@ -10,11 +10,11 @@ From rest in q with q̇ along ü^m = Re(c u^m), c = λ_r + λ_i + i(λ_i − λ_
 at late times a spiral e^(ω_i t) Re(c' u^m e^(−iω_r t)) of every grain. A drag −η q̇ changes the
 exponents to s² + ηs + λ^m = 0, so that ω_i falls by η/2 where η ≪ ω_r.
 
-| C          | name            | shape, type            |
-| ---------- | --------------- | ---------------------- |
-| λ^m        | eigenvalue      | complex, λ_i > 0       |
-| u^m        | mode            | (N, 3) complex, of q   |
-| ω_r, ω_i   | frequency, rate | float, 1/t_0           |
+| C          | name                   | shape, type            |
+| ---------- | ---------------------- | ---------------------- |
+| λ^m        | eigenvalue             | complex, λ_i > 0       |
+| u^m        | mode                   | (N, 3) complex, of q   |
+| ω_r, ω_i   | frequency, growth_rate | float, 1/t_0           |
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ from grainmodes.packing.state import Packing, find_contacts
 
 
 @dataclass(frozen=True)
-class Unstable:
-    """A balance, and of a complex pair of M⁻¹J the eigenvalue with λ_i > 0 and its eigenvector."""
+class UnstableState:
+    """A balance, the eigenvalue of a complex pair of M⁻¹J with λ_i > 0, and its eigenvector."""
 
     packing: Packing
     eigenvalue: complex
@@ -39,21 +39,24 @@ class Unstable:
 
     @property
     def frequency(self) -> float:
-        """ω_r."""
+        """ω_r, in 1/t_0."""
         return float(np.sqrt(complex(self.eigenvalue)).real)
 
     @property
-    def rate(self) -> float:
-        """ω_i."""
+    def growth_rate(self) -> float:
+        """ω_i, in 1/t_0."""
         return float(np.sqrt(complex(self.eigenvalue)).imag)
 
-    def rate_under(self, drag: float) -> float:
-        """Rate at which the mode grows under a drag η in 1/t_0; negative where it dies out."""
+    def damped_growth_rate(self, drag: float) -> float:
+        """Growth rate under a drag η, both in 1/t_0; negative where the mode decays."""
         root = np.sqrt(0.25 * drag**2 - complex(self.eigenvalue))
         return float(abs(root.real) - 0.5 * drag)
 
-    def kick(self, size: float) -> np.ndarray:
-        """Velocities of (x, y, ℓ) along ü^m, (N, 3), of root mean square |ṙ_i| `size`."""
+    def initial_velocity(self, size: float) -> np.ndarray:
+        """Velocities of (x, y, ℓ) along ü^m with root mean square |ṙ_i| = `size`: C (28).
+
+        Shape (N, 3), in d/t_0 as `size`.
+        """
         along = ((self.eigenvalue.real + self.eigenvalue.imag) * self.mode.real) + (
             (self.eigenvalue.real - self.eigenvalue.imag) * self.mode.imag
         )
@@ -64,5 +67,5 @@ class Unstable:
         matrix = jacobian(self.packing, find_contacts(self.packing), interaction)
         mass = generalized_mass(self.packing.mass).ravel()
         vector = self.mode.ravel()
-        off = matrix @ vector / mass - self.eigenvalue * vector
-        return float(np.abs(off).max() / (abs(self.eigenvalue) * np.abs(vector).max()))
+        difference = matrix @ vector / mass - self.eigenvalue * vector
+        return float(np.abs(difference).max() / (abs(self.eigenvalue) * np.abs(vector).max()))

@@ -16,11 +16,16 @@ from grainmodes.packing.mass_weighted import generalized_mass
 from grainmodes.packing.state import Packing, find_contacts, nonaffine_motion
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.release import Release
-from grainmodes.protocols.release.growth import FEWEST, fitted
-from grainmodes.protocols.release.outcome import fate_of
-from grainmodes.protocols.release.record import Record, burden, changes, record
-from grainmodes.protocols.release.run import FRAMES, Run
-from grainmodes.protocols.release.spirals import spirals_of
+from grainmodes.protocols.release.growth_fit import MIN_RECORDS, fit_growth
+from grainmodes.protocols.release.outcome import release_outcome
+from grainmodes.protocols.release.record import (
+    MotionRecord,
+    count_changed_contacts,
+    grain_stress,
+    record_motion,
+)
+from grainmodes.protocols.release.release_run import FRAMES, ReleaseRun
+from grainmodes.protocols.release.spirals import fit_spirals
 from grainmodes.relaxation.dynamics import Motion, move
 from released import SHORT, released, series, state
 
@@ -28,7 +33,7 @@ from released import SHORT, released, series, state
 def test_the_state_has_the_pair_that_it_says():
     start, _, interaction = state()
     assert start.residual(interaction) < 1e-12
-    assert (start.frequency + 1j * start.rate) ** 2 == pytest.approx(start.eigenvalue)
+    assert (start.frequency + 1j * start.growth_rate) ** 2 == pytest.approx(start.eigenvalue)
     worse = replace(start, mode=np.roll(start.mode, 1))
     assert worse.residual(interaction) > 0.1
 
@@ -40,7 +45,7 @@ def test_the_kick_goes_along_the_paper_s_vector_and_moves_no_centre():
     plane = np.stack([start.mode.real.ravel(), start.mode.imag.ravel()], axis=1)
     columns = plane @ np.array([[real, imaginary], [-imaginary, real]])
     along = columns.sum(axis=1)
-    kick = start.kick(1e-3)
+    kick = start.initial_velocity(1e-3)
     cosine = along @ kick.ravel() / np.linalg.norm(along) / np.linalg.norm(kick)
     assert cosine == pytest.approx(1.0, abs=1e-12)
     assert np.sqrt((kick[:, :2] ** 2).sum(axis=1).mean()) == pytest.approx(1e-3)
@@ -50,17 +55,19 @@ def test_the_kick_goes_along_the_paper_s_vector_and_moves_no_centre():
 @pytest.mark.parametrize("times", [0.0, 0.5, 2.0, 10.0, 1e3, 1e4])
 def test_a_drag_slows_the_growth_as_the_quadratic_says(times):
     start, _, _ = state()
-    drag = times * start.rate
+    drag = times * start.growth_rate
     roots = np.roots([1.0, drag, start.eigenvalue])
-    assert start.rate_under(drag) == pytest.approx(roots.real.max(), rel=1e-9, abs=1e-12)
+    assert start.damped_growth_rate(drag) == pytest.approx(roots.real.max(), rel=1e-9, abs=1e-12)
 
 
 def test_a_kicked_state_moves_as_linear_theory_says():
     start, _, interaction = state()
     steps, dt, size = 4000, 0.01, 1e-9
-    motion = move(start.packing, start.kick(size), interaction, Undamped(), dt, Stop(0.0, steps))
+    motion = move(
+        start.packing, start.initial_velocity(size), interaction, Undamped(), dt, Stop(0.0, steps)
+    )
     moved = nonaffine_motion(start.packing, motion.packing)
-    omega = start.frequency + 1j * start.rate
+    omega = start.frequency + 1j * start.growth_rate
     weight = start.eigenvalue.real + start.eigenvalue.imag
     weight += 1j * (start.eigenvalue.imag - start.eigenvalue.real)
     field = weight * start.mode
@@ -81,13 +88,15 @@ def test_drag_acts_in_every_piece_of_a_run_from_its_first_step_on():
 def moved_state(size: float = 0.02):
     """The state some time after a hard kick, contacts gone and made."""
     start, _, interaction = state()
-    motion = move(start.packing, start.kick(size), interaction, Undamped(), 0.05, Stop(0.0, 500))
+    motion = move(
+        start.packing, start.initial_velocity(size), interaction, Undamped(), 0.05, Stop(0.0, 500)
+    )
     return start.packing, motion, interaction
 
 
 def test_a_record_is_what_its_names_say():
     start, now, interaction = moved_state()
-    found = record(25.0, now, start, interaction)
+    found = record_motion(25.0, now, start, interaction)
     contacts, packing = find_contacts(now.packing), now.packing
     moved = nonaffine_motion(start, packing)
     m = sum(moved[i, 0] ** 2 + moved[i, 1] ** 2 for i in range(50)) / 50
@@ -114,23 +123,25 @@ def test_sliding_contacts_are_those_beyond_the_threshold():
         over = np.abs(contacts.displacement) >= 0.3 / 0.5 * contacts.overlap
         still = Motion(packing, np.zeros((16, 3)), 0, 0.0)
         turning = replace(packing, rotation=np.zeros(16))
-        found = record(0.0, replace(still, packing=turning), turning, interaction).sliding
+        found = record_motion(0.0, replace(still, packing=turning), turning, interaction).sliding
         assert 0 < found == over.sum() < len(over)
     never = Interaction.from_law(ContactLaw("hertz", "elastic", 0.5))
-    assert record(0.0, replace(still, packing=turning), turning, never).sliding == 0
+    assert record_motion(0.0, replace(still, packing=turning), turning, never).sliding == 0
 
 
 def test_the_pressures_of_the_grains_add_up():
     """C, Fig. 10: P = Σ_i P_i, whatever the tangential forces are."""
     start, now, interaction = moved_state()
-    found = burden(now.packing, interaction)
-    assert found.pressure.sum() == pytest.approx(record(0.0, now, start, interaction).pressure)
+    found = grain_stress(now.packing, interaction)
+    assert found.pressure.sum() == pytest.approx(
+        record_motion(0.0, now, start, interaction).pressure
+    )
     assert found.binary.sum() / (2.0 * start.box_length**2) == pytest.approx(found.pressure.sum())
     assert found.contacts.sum() == 2 * len(found.binary)
 
 
 @pytest.mark.parametrize("rate", [1e-3, -2e-4, 0.0])
-def test_a_law_is_found_from_a_wrong_guess(rate):
+def test_a_fit_is_found_from_a_wrong_guess(rate):
     """ω_r off by half a per cent, a hundred turns of phase over the window."""
     frequency, depth, phase = 0.7, 0.4, 1.1
     even = np.arange(0.0, 1e4, 29.0)
@@ -138,36 +149,36 @@ def test_a_law_is_found_from_a_wrong_guess(rate):
     time = np.sort(np.concatenate([even, close]))
     square = 3e-20 * np.exp(2 * rate * time)
     square *= 1 + depth * np.cos(2 * frequency * time - phase)
-    law = fitted(time, square, 1.2 * rate + 1e-5, 1.005 * frequency)
-    assert law.rate == pytest.approx(rate, abs=1e-9)
-    assert law.frequency == pytest.approx(frequency, rel=1e-7)
-    assert (law.size, law.depth) == pytest.approx((3e-20, depth), rel=1e-5)
-    assert law.phase == pytest.approx(phase, abs=1e-4)
-    assert law.misfit < 1e-6
-    np.testing.assert_allclose(law.at(time), square, rtol=1e-4)
+    fit = fit_growth(time, square, 1.2 * rate + 1e-5, 1.005 * frequency)
+    assert fit.rate == pytest.approx(rate, abs=1e-9)
+    assert fit.frequency == pytest.approx(frequency, rel=1e-7)
+    assert (fit.size, fit.depth) == pytest.approx((3e-20, depth), rel=1e-5)
+    assert fit.phase == pytest.approx(phase, abs=1e-4)
+    assert fit.misfit < 1e-6
+    np.testing.assert_allclose(fit.at(time), square, rtol=1e-4)
 
 
-def test_errors_of_a_law_are_those_of_noise():
+def test_errors_of_a_fit_are_those_of_noise():
     draws = np.random.default_rng(4)
     time = np.arange(0.0, 400.0, 0.25)
     clean = np.exp(2e-3 * time) * (1 + 0.5 * np.cos(1.4 * time))
-    laws = [
-        fitted(time, clean * (1 + 1e-2 * draws.standard_normal(len(time))), 1e-3, 0.7)
+    fits = [
+        fit_growth(time, clean * (1 + 1e-2 * draws.standard_normal(len(time))), 1e-3, 0.7)
         for _ in range(60)
     ]
     for name in ("rate", "frequency"):
-        spread = np.std([getattr(law, name) for law in laws])
-        assert np.mean([getattr(law, f"{name}_error") for law in laws]) == pytest.approx(
+        spread = np.std([getattr(fit, name) for fit in fits])
+        assert np.mean([getattr(fit, f"{name}_error") for fit in fits]) == pytest.approx(
             spread, rel=0.35
         )
 
 
-def test_too_few_records_have_no_law():
-    time = np.arange(FEWEST - 1.0)
-    assert np.isnan(fitted(time, np.exp(time), 0.5, 1.0)).all()
+def test_too_few_records_have_no_fit():
+    time = np.arange(MIN_RECORDS - 1.0)
+    assert np.isnan(fit_growth(time, np.exp(time), 0.5, 1.0)).all()
 
 
-def window(run: Run) -> np.ndarray:
+def window(run: ReleaseRun) -> np.ndarray:
     square = series(run, "mean_square_displacement")
     return (square > 1e-19) & (square < 1e-11)
 
@@ -179,14 +190,19 @@ def test_growth_and_frequency_are_those_of_the_pair_to_order_dt_squared(quantity
     for dt in (0.2, 0.1):
         run = released(replace(SHORT, time_step=dt))
         used = window(run)
-        law = fitted(
-            series(run, "time")[used], series(run, quantity)[used], start.rate, start.frequency
+        fit = fit_growth(
+            series(run, "time")[used],
+            series(run, quantity)[used],
+            start.growth_rate,
+            start.frequency,
         )
-        assert law.rate / start.rate - 1 == pytest.approx((start.frequency * dt) ** 2 / 8, rel=0.1)
-        assert law.frequency / start.frequency - 1 == pytest.approx(
+        assert fit.rate / start.growth_rate - 1 == pytest.approx(
+            (start.frequency * dt) ** 2 / 8, rel=0.1
+        )
+        assert fit.frequency / start.frequency - 1 == pytest.approx(
             (start.frequency * dt) ** 2 / 24, rel=0.1
         )
-        assert law.misfit < 1e-3
+        assert fit.misfit < 1e-3
 
 
 def test_round_off_alone_grows_alike():
@@ -196,14 +212,14 @@ def test_round_off_alone_grows_alike():
     )
     assert series(run, "mean_square_displacement")[:30].max() < 1e-29
     used = window(run)
-    law = fitted(
+    fit = fit_growth(
         series(run, "time")[used],
         series(run, "mean_square_displacement")[used],
-        start.rate,
+        start.growth_rate,
         start.frequency,
     )
-    assert law.rate == pytest.approx(start.rate, rel=1e-2)
-    assert law.frequency == pytest.approx(start.frequency, rel=1e-2)
+    assert fit.rate == pytest.approx(start.growth_rate, rel=1e-2)
+    assert fit.frequency == pytest.approx(start.frequency, rel=1e-2)
 
 
 def test_a_film_shows_every_grain_a_part_of_a_turn_apart():
@@ -213,74 +229,78 @@ def test_a_film_shows_every_grain_a_part_of_a_turn_apart():
     steps = np.array([step for step, _ in run.film])
     turns = np.diff(steps) * SHORT.time_step * start.frequency / (2 * np.pi)
     np.testing.assert_allclose(turns - np.rint(turns), 1 / 24, atol=0.02)
-    assert (steps[-1] - steps[0]) * SHORT.time_step * start.rate == pytest.approx(2.0, abs=0.8)
+    assert (steps[-1] - steps[0]) * SHORT.time_step * start.growth_rate == pytest.approx(
+        2.0, abs=0.8
+    )
 
 
 def test_the_film_of_a_fast_growth_is_no_longer_than_that_of_a_slow_one():
     start, _, interaction = state()
     fast = replace(start, eigenvalue=(0.24 + 0.06j) ** 2)
-    run = Run.begin(fast, interaction, SHORT)
-    run._look_closely()
-    taken = np.array(sorted(run.frames)) * SHORT.time_step
+    run = ReleaseRun.from_state(fast, interaction, SHORT)
+    run._plan_dense_records()
+    taken = np.array(sorted(run.frame_steps)) * SHORT.time_step
     assert len(taken) == FRAMES
-    assert taken[-1] * fast.rate == pytest.approx(1.5, rel=0.02)
+    assert taken[-1] * fast.growth_rate == pytest.approx(1.5, rel=0.02)
 
 
 def test_a_loose_grain_draws_no_spiral():
     run = released()
-    law = fate_of(run).displacement
+    fit = release_outcome(run).displacement
     still = [(step, moved * (np.arange(50) != 7)[:, None]) for step, moved in run.film]
     loose = SimpleNamespace(film=still, choices=run.choices, start=run.start)
-    assert spirals_of(loose, law).opening == pytest.approx(spirals_of(run, law).opening, rel=0.1)
+    assert fit_spirals(loose, fit).axis_ratio == pytest.approx(
+        fit_spirals(run, fit).axis_ratio, rel=0.1
+    )
 
 
 @pytest.mark.parametrize("times", [1.8, 2.2])
 def test_growth_stops_at_a_drag_of_twice_its_rate(times):
     """Not at ω_i: s² + ηs + λ' = 0 has Re s = ω_i − η/2."""
     start, _, _ = state()
-    run = released(SHORT, drag=times * start.rate)
+    run = released(SHORT, drag=times * start.growth_rate)
     time, square = series(run, "time"), series(run, "mean_square_displacement")
     means = [
         np.log(square[(time >= a * time[-1]) & (time <= (a + 0.1) * time[-1])].mean())
         for a in (0.2, 0.8)
     ]
-    expected = 2.0 * (1.0 - 0.5 * times) * start.rate * 0.6 * time[-1]
+    expected = 2.0 * (1.0 - 0.5 * times) * start.growth_rate * 0.6 * time[-1]
     assert means[1] - means[0] == pytest.approx(expected, rel=0.1, abs=0.05)
 
 
-def test_the_fate_of_a_run_is_told_from_its_records():
+def test_the_outcome_of_a_run_is_found_from_its_records():
     """A made-up run: growth, contacts change at 5e-8, a plateau from 1e-7 on, a second rise."""
     start, _, _ = state()
-    rate, turn = start.rate, 2 * np.pi / start.frequency
+    rate, turn = start.growth_rate, 2 * np.pi / start.frequency
     even = np.arange(0.0, 60.0, 0.05) / rate
     time = np.unique(np.concatenate([even, 7.0 / rate + turn / 24 * np.arange(288)]))
-    law = 1e-22 * np.exp(2 * rate * time)
-    square = np.minimum(law * (1 + 0.2 * np.cos(2 * start.frequency * time)), 1e-7)
+    growth = 1e-22 * np.exp(2 * rate * time)
+    square = np.minimum(growth * (1 + 0.2 * np.cos(2 * start.frequency * time)), 1e-7)
     overlap = find_contacts(start.packing).overlap.mean()
     square[time > 40.0 / rate] = 0.8 * overlap**2
     square[time > 50.0 / rate] = 1.2 * overlap**2
-    blank = np.zeros(len(Record._fields))
+    blank = np.zeros(len(MotionRecord._fields))
     records = [
-        Record(*(t, m, m), *blank[3:])._replace(changed=int(m > 5e-8))
+        MotionRecord(*(t, m, m), *blank[3:])._replace(changed=int(m > 5e-8))
         for t, m in zip(time, square, strict=True)
     ]
-    fate = fate_of(SimpleNamespace(start=start, drag=0.0, records=records))
+    outcome = release_outcome(SimpleNamespace(start=start, drag=0.0, records=records))
     grown = np.log(1e-7 / 1e-22) / 2
-    assert fate.displacement.rate == pytest.approx(rate, rel=1e-6)
-    assert fate.displacement.depth == pytest.approx(0.2, rel=1e-3)
-    assert fate.rotation == pytest.approx(fate.displacement)
-    assert fate.end.time * rate == pytest.approx(grown + 0.5 * np.log(2.0), abs=0.2)
-    assert fate.end.square == pytest.approx(2e-7, rel=0.3)
-    assert fate.change.time * rate == pytest.approx(grown + 0.5 * np.log(0.5), abs=0.2)
-    assert 5e-8 < fate.change.square <= 1e-7
-    assert fate.second == (pytest.approx(50.05 / rate, rel=1e-3), 1.2 * overlap**2)
-    assert fate.largest == fate.second.square
-    assert fate.after.mean_square_displacement == pytest.approx(fate.largest)
+    assert outcome.displacement.rate == pytest.approx(rate, rel=1e-6)
+    assert outcome.displacement.depth == pytest.approx(0.2, rel=1e-3)
+    assert outcome.rotation == pytest.approx(outcome.displacement)
+    assert outcome.end.time * rate == pytest.approx(grown + 0.5 * np.log(2.0), abs=0.2)
+    assert outcome.end.square == pytest.approx(2e-7, rel=0.3)
+    assert outcome.change.time * rate == pytest.approx(grown + 0.5 * np.log(0.5), abs=0.2)
+    assert 5e-8 < outcome.change.square <= 1e-7
+    assert outcome.second == (pytest.approx(50.05 / rate, rel=1e-3), 1.2 * overlap**2)
+    assert outcome.largest == outcome.second.square
+    assert outcome.after.mean_square_displacement == pytest.approx(outcome.largest)
 
 
 def test_what_does_not_happen_has_no_moment():
-    fate = fate_of(released(SHORT, drag=10.0 * state()[0].rate))
-    assert np.isnan([*fate.displacement, *fate.end, *fate.change, *fate.second]).all()
+    outcome = release_outcome(released(SHORT, drag=10.0 * state()[0].growth_rate))
+    assert np.isnan([*outcome.displacement, *outcome.end, *outcome.change, *outcome.second]).all()
 
 
 def test_equation_25_needs_the_other_vector_in_its_last_term():
@@ -298,13 +318,13 @@ def test_equation_25_needs_the_other_vector_in_its_last_term():
 def test_a_state_that_leaves_too_slowly_is_refused():
     start, _, interaction = state()
     with pytest.raises(ArithmeticError, match="omega_i"):
-        Run.begin(start, interaction, Release(max_steps=1000))
+        ReleaseRun.from_state(start, interaction, Release(max_steps=1000))
 
 
 def test_only_a_run_without_damping_goes_on_to_the_end_of_its_plateau():
     choices = Release(duration=0.05, min_time=400.0, n_records=10, spectra=5)
-    free, damped = released(choices), released(choices, 0.1 * state()[0].rate)
-    growth = choices.duration / state()[0].rate
+    free, damped = released(choices), released(choices, 0.1 * state()[0].growth_rate)
+    growth = choices.duration / state()[0].growth_rate
     assert series(damped, "time")[-1] == pytest.approx(growth, rel=0.02)
     time = series(free, "time")
     assert 400.0 <= time[-1] < 400.0 + 2.0 * growth
@@ -344,7 +364,9 @@ def test_a_loose_grain_changes_no_contacts():
     start, _, interaction = state()
     n, contacts = start.packing.n, find_contacts(start.packing)
     without_last = contacts.among(np.arange(n) < n - 1)
-    assert changes(contacts, without_last, n, interaction) == 0
+    assert count_changed_contacts(contacts, without_last, n, interaction) == 0
     assert (
-        changes(without_last, contacts, n, interaction) == len(contacts.i) - len(without_last.i) > 0
+        count_changed_contacts(without_last, contacts, n, interaction)
+        == len(contacts.i) - len(without_last.i)
+        > 0
     )

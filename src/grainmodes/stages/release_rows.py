@@ -1,0 +1,119 @@
+"""What the releases of a sample leave behind, as values of one row by the names of the dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from grainmodes.protocols.release.outcome import ReleaseOutcome, record_series, release_outcome
+from grainmodes.protocols.release.record import MotionRecord, grain_stress
+from grainmodes.protocols.release.release_run import ReleaseRun
+from grainmodes.protocols.release.spirals import fit_spirals
+from grainmodes.response.stability import REAL
+
+COUNTS = ("sliding", "changed")
+"""Quantities of a record that are whole numbers."""
+
+FINAL_MEANS = (
+    "pressure",
+    "stress_xy",
+    "stress_yx",
+    "contact_number",
+    "sliding",
+    "kinetic_energy",
+)
+"""Quantities whose mean over the final state is kept."""
+
+
+def runs_row(runs: Sequence[ReleaseRun]) -> dict[str, object]:
+    """Everything that is kept of the runs of one sample, the first of them without damping."""
+    outcomes, undamped = [release_outcome(run) for run in runs], runs[0]
+    start, first = undamped.start, undamped.records[0]
+    spirals = fit_spirals(undamped, outcomes[0].displacement)
+    names = ("position", "diameter", "mass", "box_length", "strain")
+    return {
+        **{name: getattr(start.packing, name) for name in names},
+        "release_found": 1,
+        "release_rate_linear": start.growth_rate,
+        "release_frequency_linear": start.frequency,
+        "release_damping": [run.drag for run in runs],
+        "release_rate_damped": [start.damped_growth_rate(run.drag) for run in runs],
+        **_outcomes(outcomes),
+        "release_start_pressure": first.pressure,
+        "release_start_stress_xy": first.stress_xy,
+        "release_start_contact_number": first.contact_number,
+        "release_spiral_misfit": spirals.misfit,
+        "release_spiral_overlap": spirals.overlap,
+        "release_spiral_opening": spirals.axis_ratio,
+        **_records(runs),
+        **_film(undamped),
+        **_spectra(undamped),
+        **_grain_stresses(undamped),
+        "converged": True,
+    }
+
+
+def _outcomes(outcomes: Sequence[ReleaseOutcome]) -> dict[str, object]:
+    """Fits, onsets and final means of all runs, one value for each run."""
+    row: dict[str, object] = {"release_largest_square": [outcome.largest for outcome in outcomes]}
+    for stage in ("displacement", "rotation", "end", "change", "second"):
+        parts = [getattr(outcome, stage) for outcome in outcomes]
+        for name, values in zip(parts[0]._fields, zip(*parts, strict=True), strict=True):
+            row[f"release_{stage}_{name}"] = values
+    for name in FINAL_MEANS:
+        row[f"release_after_{name}"] = [getattr(outcome.after, name) for outcome in outcomes]
+    return row
+
+
+def _records(runs: Sequence[ReleaseRun]) -> dict[str, object]:
+    """Every quantity of the records, (damping, record); shorter runs are filled up."""
+    longest = max(len(run.records) for run in runs)
+    series = [record_series(run.records) for run in runs]
+    row = {}
+    for name in MotionRecord._fields:
+        values = np.full((len(runs), longest), np.nan)
+        for place, quantities in enumerate(series):
+            values[place, : len(quantities[name])] = quantities[name]
+        row[f"release_{name}"] = np.nan_to_num(values) if name in COUNTS else values
+    return row
+
+
+def _film(run: ReleaseRun) -> dict[str, object]:
+    if not run.film:
+        return {}
+    return {
+        "release_frame_time": [step * run.choices.time_step for step, _ in run.film],
+        "release_film": np.stack([displacement for _, displacement in run.film]),
+    }
+
+
+def _spectra(run: ReleaseRun) -> dict[str, object]:
+    """Of every spectrum the λ_i of its pairs, descending, and its number of negative real λ."""
+    if not run.spectra:
+        return {}
+    spectra = [values for _, values in run.spectra]
+    imaginary = [np.sort(values.imag[values.imag > REAL])[::-1] for values in spectra]
+    padded = np.full((len(imaginary), max(map(len, imaginary))), np.nan)
+    for place, parts in enumerate(imaginary):
+        padded[place, : len(parts)] = parts
+    real = [values.real[np.abs(values.imag) <= REAL] for values in spectra]
+    return {
+        "release_spectrum_time": [step * run.choices.time_step for step, _ in run.spectra],
+        "release_spectrum_pairs": [len(parts) for parts in imaginary],
+        "release_spectrum_negative": [np.count_nonzero(parts < -REAL) for parts in real],
+        "release_spectrum_imaginary": padded,
+    }
+
+
+def _grain_stresses(run: ReleaseRun) -> dict[str, object]:
+    """How the contacts load the grains at the start and at the end of a run."""
+    row = {}
+    for side, packing in (("before", run.start.packing), ("after", run.motion.packing)):
+        found = grain_stress(packing, run.interaction)
+        row |= {
+            f"release_contacts_{side}": found.contacts,
+            f"release_grain_pressure_{side}": found.pressure,
+            f"release_binary_pressure_{side}": found.binary,
+        }
+    return row

@@ -1,0 +1,162 @@
+"""What a quasistatic shear leaves behind, as values of one row by the names of the dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from grainmodes.kernels.laws import Interaction
+from grainmodes.packing.forces import is_frictionless
+from grainmodes.packing.state import Packing, on_all_grains
+from grainmodes.protocols.shear.event_multipoles import rotational_multipoles
+from grainmodes.protocols.shear.events import NetworkChange, PlasticEvent, count_reopened
+from grainmodes.protocols.shear.first_event import Bracket
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
+from grainmodes.protocols.shear.sheared_state import CurvePoint
+from grainmodes.relaxation.balance import Balance
+from grainmodes.response.stability import asymmetry, complex_pairs
+
+MAX_PAIR_DOF = 1200
+"""Degrees of freedom up to which complex pairs are counted, which then takes a second an event."""
+
+
+def run_row(run: QuasistaticRun) -> dict[str, object]:
+    """Everything recorded along a shear; not converged where it ended before the last strain."""
+    balance = run.state.balance
+    packing, interaction = balance.packing, balance.interaction
+    return {
+        **{name: getattr(packing, name) for name in ("diameter", "mass", "box_length")},
+        **_curve(run.curve),
+        **_events(run.events, interaction),
+        "last_asymmetry": asymmetry(balance.matrix),
+        "last_complex_pairs": _count_pairs(balance),
+        **_network_changes(run.network_changes),
+        "jammed": True,
+        "converged": run.done,
+    }
+
+
+def coarse_run_row(run: QuasistaticRun) -> dict[str, object]:
+    """The stress-strain curve of a run whose events are not bracketed."""
+    return {
+        "coarse_strain": [point.strain for point in run.curve],
+        "coarse_stress": [symmetric_shear(point.stress) for point in run.curve],
+    }
+
+
+def bracket_ends(brackets: Sequence[Bracket]) -> dict[str, object]:
+    """Both ends of the bracket of the first event at every Δγ_Th; NaN where there is no event."""
+    return {
+        "bracket_min_step": [b.min_step for b in brackets],
+        "bracket_strain_before": [b.before.strain if b.event else np.nan for b in brackets],
+        "bracket_strain_after": [b.after.strain if b.event else np.nan for b in brackets],
+    }
+
+
+def symmetric_shear(tensor: np.ndarray) -> float:
+    """The shear component (T_xy + T_yx)/2 of a tensor (2, 2)."""
+    return (tensor[0, 1] + tensor[1, 0]) / 2.0
+
+
+def _curve(points: Sequence[CurvePoint]) -> dict[str, object]:
+    stress = np.array([point.stress for point in points])
+    modulus = np.array([point.modulus for point in points])
+    return {
+        "curve_count": len(points),
+        "curve_strain": [point.strain for point in points],
+        "curve_stress_xy": stress[:, 0, 1],
+        "curve_stress_yx": stress[:, 1, 0],
+        "curve_pressure": -np.trace(stress, axis1=1, axis2=2) / 2.0,
+        "curve_g_xy": modulus[:, 0, 1],
+        "curve_g_yx": modulus[:, 1, 0],
+        "curve_energy": [point.energy for point in points],
+        "curve_contact_number": [point.contact_number for point in points],
+        "curve_lowest_eigenvalue": [point.lowest_eigenvalue for point in points],
+    }
+
+
+def _events(events: Sequence[PlasticEvent], interaction: Interaction) -> dict[str, object]:
+    """The events, and the states before and after each of them."""
+    if not events:
+        return {"event_count": 0}
+    fields = [event.displacement for event in events]
+    multipoles = [rotational_multipoles(event.after, event.displacement) for event in events]
+    quadrupole, others = zip(*multipoles, strict=True)
+    before, after = (
+        [Balance.of(packing, interaction) for packing in packings]
+        for packings in ([event.before for event in events], [event.after for event in events])
+    )
+    return {
+        "event_count": len(events),
+        "event_kind": [event.kind for event in events],
+        "event_opened": [event.opened for event in events],
+        "event_closed": [event.closed for event in events],
+        "event_displacement": np.stack([on_every_grain(field) for field in fields]),
+        "event_quadrupole": quadrupole,
+        "event_other_multipoles": others,
+        "event_reopened": [count_reopened(e.before, e.after, interaction) for e in events],
+        **_states("before", before, [event.points[0] for event in events]),
+        **_states("after", after, [event.points[1] for event in events]),
+        "event_complex_pairs_after": [_count_pairs(balance) for balance in after],
+    }
+
+
+def on_every_grain(field: np.ndarray) -> np.ndarray:
+    """A field (N, k) with all three components, (N, 3); the rotation is NaN without friction."""
+    return on_all_grains(field, np.zeros(len(field), bool))
+
+
+def _count_pairs(balance: Balance) -> float:
+    """Number of complex pairs of M⁻¹J, 0 for a symmetric J; NaN where the matrix is too large."""
+    if is_frictionless(balance.interaction):
+        return 0.0
+    if balance.matrix.shape[0] > MAX_PAIR_DOF:
+        return np.nan
+    return float(complex_pairs(balance.backbone, balance.interaction))
+
+
+def _states(
+    side: str, balances: Sequence[Balance], points: Sequence[CurvePoint]
+) -> dict[str, object]:
+    """The states on one side of all events, with their grains and springs."""
+    packings = [balance.packing for balance in balances]
+    row = {
+        "stress": [symmetric_shear(point.stress) for point in points],
+        "g": [symmetric_shear(point.modulus) for point in points],
+        "strain": [point.strain for point in points],
+        "energy": [point.energy for point in points],
+        "lowest_eigenvalue": [point.lowest_eigenvalue for point in points],
+        "asymmetry": [asymmetry(balance.matrix) for balance in balances],
+        "fraction": np.stack([packing.fraction.T for packing in packings]),
+        **_springs(packings),
+    }
+    return {f"event_{name}_{side}": values for name, values in row.items()}
+
+
+def _springs(packings: Sequence[Packing]) -> dict[str, object]:
+    """Rotations and springs of several packings, nothing without friction."""
+    if packings[0].rotation is None:
+        return {}
+    histories = [packing.history for packing in packings]
+    return {
+        "rotation": np.stack([packing.rotation for packing in packings]),
+        "contact_i": _padded([history.i for history in histories], -1),
+        "contact_j": _padded([history.j for history in histories], -1),
+        "spring_state": _padded([history.spring_state for history in histories], np.nan),
+    }
+
+
+def _network_changes(changes: Sequence[NetworkChange]) -> dict[str, object]:
+    if not changes:
+        return {"change_count": 0}
+    columns = zip(NetworkChange._fields, zip(*changes, strict=True), strict=True)
+    return {"change_count": len(changes)} | {f"change_{name}": values for name, values in columns}
+
+
+def _padded(rows: Sequence[np.ndarray], fill: float) -> np.ndarray:
+    """Rows of different lengths as one array, the shorter ones filled up."""
+    array = np.full((len(rows), max(map(len, rows))), fill, rows[0].dtype)
+    for place, row in enumerate(rows):
+        array[place, : len(row)] = row
+    return array
