@@ -1,6 +1,7 @@
-"""From blocks of samples to points, from points to one ensemble.
+"""Gathers blocks of samples into points, and points into one ensemble, and reads it.
 
-Its averages: `averages`; its spectra: `spectra`.
+`averages` has means with errors, `spectra` the modes of a point, `curves` its stress-strain curves,
+`exceptional` the births and deaths of complex pairs.
 """
 
 from grainmodes.ensemble.point import gather_point, merge_blocks

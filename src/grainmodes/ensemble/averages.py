@@ -1,7 +1,8 @@
-"""Averages of an ensemble with their uncertainties.
+"""Averages of an ensemble with their standard errors.
 
-An average runs over all converged samples. An unjammed sample has g = 0 and counts as such, as in
-A; the fraction jammed stands beside every average, so that the two effects can be told apart.
+An average runs over all converged samples. A sample that is not jammed has g = 0 and counts with
+this value, as in A. The fraction of jammed samples is given with every average, so that the two
+effects can be separated.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ def averages(ensemble: xr.Dataset, names: list[str]) -> pd.DataFrame:
     """Means over the converged samples of every point.
 
     Args:
-        names: variables of one number per sample, as "g".
+        names: variables with one number per sample, such as "g".
 
     Returns:
         one row per point: n, phi, kt, fraction_jammed, and for each name the columns `name`,

@@ -1,8 +1,8 @@
-"""Exceptional points of an ensemble, with the states around them and the modes along the walk: C.
+"""Exceptional points of an ensemble, with the states around them and the modes along the shear: C.
 
 | symbol             | name         | where                                           |
 | ------------------ | ------------ | ----------------------------------------------- |
-| γ − γ_c            | distance     | states around a point, ascending                |
+| γ − γ_c            | distance     | states around an exceptional point, ascending   |
 | D = (λ1 − λ2)²     | discriminant | below 0 for a pair                              |
 | |Σ u1_j u2_j|      | product      | scalar product of the two eigenvectors          |
 """
@@ -24,30 +24,32 @@ COALESCENCE = 1
 """The `exceptional_point_kind` of a point where two eigenvalues meet."""
 
 AXES = ("n", "phi", "kt", "seed")
-NEAR = ("point", "distance", "sum", "discriminant", "product", "condition")
-PATH = ("point", "strain", "real_1", "real_2", "imaginary", "product")
-PRODUCT = ("strain", "mode", "other", "value")
+NEIGHBOUR_COLUMNS = ("point", "distance", "sum", "discriminant", "product", "condition")
+PATH_COLUMNS = ("point", "strain", "real_1", "real_2", "imaginary", "product")
+PRODUCT_COLUMNS = ("strain", "mode", "other", "value")
 
 
 @dataclass(frozen=True)
-class Sample:
-    """Coalescences of one sample, states around them, paths: data frames with the number `point`.
+class PairSample:
+    """The exceptional points of one sample, the states around them and the paths of the two modes.
 
-    `points` has track, birth, strain, and the exponents where the modes are real and are a pair.
+    `coordinates` has n, phi, kt and seed. `exceptional_points` has the columns track, birth, kind
+    and strain, and the exponents on the side where the modes are real and where they are a pair.
+    In `neighbours` and `path` the column `point` is the row of the exceptional point.
     """
 
-    place: dict[str, float]
-    points: pd.DataFrame
-    near: pd.DataFrame
+    coordinates: dict[str, float]
+    exceptional_points: pd.DataFrame
+    neighbours: pd.DataFrame
     path: pd.DataFrame
     products: pd.DataFrame
 
 
-def samples(ensemble: xr.Dataset) -> list[Sample]:
-    """Every converged and jammed sample with a located coalescence, in the order of the grid.
+def pair_samples(ensemble: xr.Dataset) -> list[PairSample]:
+    """Every converged and jammed sample with a located exceptional point, in the order of the grid.
 
     Raises:
-        BlockError: its study did not ask for complex pairs.
+        BlockError: the study did not compute complex pairs.
     """
     variable(ensemble, "pair_state_count")
     if "exceptional_point_kind" not in ensemble:
@@ -56,24 +58,28 @@ def samples(ensemble: xr.Dataset) -> list[Sample]:
     kinds = ensemble["exceptional_point_kind"].where(used)
     found = (kinds == COALESCENCE).any("exceptional_point").transpose(*AXES).to_numpy()
     grid = [ensemble[axis].to_numpy().tolist() for axis in AXES]
-    places = [[of[k] for of, k in zip(grid, at, strict=True)] for at in np.argwhere(found).tolist()]
-    return [_sample(ensemble, dict(zip(AXES, place, strict=True))) for place in places]
+    samples = []
+    for indices in np.argwhere(found).tolist():
+        values = [axis[k] for axis, k in zip(grid, indices, strict=True)]
+        samples.append(_sample(ensemble, dict(zip(AXES, values, strict=True))))
+    return samples
 
 
-def _sample(ensemble: xr.Dataset, place: dict[str, float]) -> Sample:
-    row = ensemble.sel(place)
+def _sample(ensemble: xr.Dataset, coordinates: dict[str, float]) -> PairSample:
+    row = ensemble.sel(coordinates)
     names = ("track", "birth", "kind", "strain", "exponent_real", "exponent_pair")
     points = _frame(row, "exceptional_point", names)
     points = points[points["kind"] == COALESCENCE]
-    products = _frame(row, "product", PRODUCT).rename(columns={"value": "product"})
-    near, path = _frame(row, "neighbour", NEAR), _frame(row, "followed", PATH)
-    return Sample(place, points, near, path, products)
+    products = _frame(row, "product", PRODUCT_COLUMNS).rename(columns={"value": "product"})
+    neighbours = _frame(row, "neighbour", NEIGHBOUR_COLUMNS)
+    path = _frame(row, "followed", PATH_COLUMNS)
+    return PairSample(coordinates, points, neighbours, path, products)
 
 
-def _frame(row: xr.Dataset, of: str, names: tuple[str, ...]) -> pd.DataFrame:
-    """Variables `of_name` as columns, without the rows that only fill up; empty where absent."""
-    if f"{of}_strain" not in row and f"{of}_distance" not in row:
+def _frame(row: xr.Dataset, prefix: str, names: tuple[str, ...]) -> pd.DataFrame:
+    """The variables `prefix_name` as columns, without the padding; empty where they are absent."""
+    if f"{prefix}_strain" not in row and f"{prefix}_distance" not in row:
         return pd.DataFrame(columns=list(names))
-    table = pd.DataFrame({name: row[f"{of}_{name}"].to_numpy() for name in names})
+    table = pd.DataFrame({name: row[f"{prefix}_{name}"].to_numpy() for name in names})
     key = "distance" if "distance" in names else "strain"
     return table[np.isfinite(table[key])]

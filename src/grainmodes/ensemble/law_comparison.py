@@ -1,4 +1,4 @@
-"""What was seen of sheared packings under several tangential laws, by sample: C, Sec. VIII."""
+"""Packings sheared under several tangential laws, sample by sample: C, Sec. VIII."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ NUMBERS = ("pairs_slipping", "pairs_sticking", "rate", "growth")
 
 
 def points_with_comparison(ensemble: xr.Dataset) -> list[tuple[int, float, float]]:
-    """(n, phi, kt) at which a jammed sample was sheared, ascending.
+    """The points (n, phi, kt) at which a jammed sample was sheared, ascending.
 
     Raises:
-        BlockError: the ensemble holds no variants.
+        BlockError: the ensemble holds no comparison of laws.
     """
     states = variable(ensemble, "comparison_count").max("seed")
     axes = [states[name].to_numpy().tolist() for name in ("n", "phi", "kt")]
@@ -30,10 +30,10 @@ def points_with_comparison(ensemble: xr.Dataset) -> list[tuple[int, float, float
 def comparison_at(
     ensemble: xr.Dataset, n: int, phi: float, kt: float
 ) -> tuple[np.ndarray, dict[str, dict[str, np.ndarray]]]:
-    """The strains (M,), and law → number of `NUMBERS` → (S, M) of a point; NaN: not known.
+    """The strains (M,) of a point, and law → name in `NUMBERS` → values (S, M), NaN if unknown.
 
     Raises:
-        BlockError: the ensemble holds no variants.
+        BlockError: the ensemble holds no comparison of laws.
     """
     point = variable(ensemble, "comparison_strain").sel(n=n, phi=phi, kt=kt).to_numpy()
     used = np.isfinite(point).any(axis=1)
@@ -41,6 +41,6 @@ def comparison_at(
     found = {}
     for law in TANGENTIAL_LAWS:
         rows = (variable(ensemble, f"comparison_{number}_{law}") for number in NUMBERS)
-        of = (row.sel(n=n, phi=phi, kt=kt).to_numpy()[used] for row in rows)
-        found[law] = dict(zip(NUMBERS, of, strict=True))
+        values = (row.sel(n=n, phi=phi, kt=kt).to_numpy()[used] for row in rows)
+        found[law] = dict(zip(NUMBERS, values, strict=True))
     return strain, found

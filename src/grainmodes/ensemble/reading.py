@@ -1,4 +1,4 @@
-"""Opening an ensemble, and what its configuration says of it."""
+"""Opens an ensemble, and reads its variables and the configuration that it was made with."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def open_ensemble(path: str | Path) -> xr.Dataset:
     Raises:
         BlockError: no such file, not a readable netCDF file, or not an ensemble.
     """
-    import xarray as xr  # here, because to gather points takes less time than this import
+    import xarray as xr  # here, because gathering points takes less time than this import
 
     path = Path(path)
     if not path.is_file():
@@ -56,16 +56,16 @@ def variable(ensemble: xr.Dataset, name: str) -> xr.DataArray:
 
 
 def configuration(ensemble: xr.Dataset) -> dict:
-    """The part of its scene that an ensemble depends on."""
+    """The part of the scene that the numbers of an ensemble depend on."""
     return json.loads(ensemble.attrs["config"])
 
 
 def normal_law(ensemble: xr.Dataset) -> str:
-    """The normal contact law, on which units depend; "hertz" where the configuration is silent."""
+    """The normal contact law, on which units depend; "hertz" where it is not configured."""
     return configuration(ensemble).get("contact_law", {}).get("normal", ContactLaw.normal)
 
 
 def bin_density(ensemble: xr.Dataset) -> float:
-    """Factor on the numbers of linear bins that the study chose for its spectra."""
+    """The factor on the numbers of linear bins that the study chose for its spectra."""
     protocol = configuration(ensemble).get("protocol", {})
     return protocol.get("spectrum", {}).get("bin_density", SpectrumChoices().bin_density)

@@ -5,9 +5,10 @@ standard error, (1/S) sum_s x_s ± [sum_s (x_s - mean)^2 / (S (S - 1))]^(1/2), u
 
 Modes. omega_n = lambda_n^(1/2). The sums sum' leave out the zero modes: per sample the two
 translations (the two smallest |lambda|, whatever their value: at k_T/k_N = 1e-8 rotations have
-lambda t_0^2 ~ 1e-9, so no absolute threshold tells them apart at every k_T) and what round-off
-cannot tell from zero (free rattlers, where these are kept). Negative eigenvalues have no frequency.
-Both are counted, so that nothing disappears unseen. Per bin of width w, from a to b,
+lambda t_0^2 ~ 1e-9, so that no absolute threshold separates them at every k_T) and the modes whose
+eigenvalue equals zero within round-off (free rattlers, if these are kept). Negative eigenvalues
+have no frequency. Zero and negative modes are both counted, so that none is lost. Per bin of width
+w, from a to b,
 
     D(omega)     = <number of modes in the bin> / (3 N w)                            (A, Eq. 23)
     psi^R(omega) = <sum' psi_n^R over the bin> / <number of modes in the bin>        (A, Eq. 52)
@@ -27,7 +28,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.statistics.binning import Sums
+from grainmodes.statistics.binning import BinSums
 
 TRANSLATIONS = 2
 """Zero modes of every rigid sample under periodic boundaries."""
@@ -37,7 +38,7 @@ ROUND_OFF = 1e-14
 
 
 class Average(NamedTuple):
-    """A mean, its standard error, and how many samples stand behind it."""
+    """A mean, its standard error, and the number of samples in it; arrays of one shape."""
 
     mean: np.ndarray
     standard_error: np.ndarray
@@ -45,7 +46,7 @@ class Average(NamedTuple):
 
 
 class Frequencies(NamedTuple):
-    """omega_n of the vibrations of S samples, and how many modes are none."""
+    """omega_n (S, M) of the vibrations of S samples, and the numbers (S,) of all other modes."""
 
     frequency: np.ndarray
     zero: np.ndarray
@@ -84,8 +85,8 @@ def frequencies(eigenvalue: np.ndarray) -> Frequencies:
     magnitude = np.abs(eigenvalue)
     present = np.isfinite(eigenvalue)
     rank = magnitude.argsort(axis=1).argsort(axis=1)
-    floor = ROUND_OFF * np.where(present, magnitude, 0.0).max(axis=1, keepdims=True)
-    zero = present & ((rank < TRANSLATIONS) | (magnitude <= floor))
+    zero_cutoff = ROUND_OFF * np.where(present, magnitude, 0.0).max(axis=1, keepdims=True)
+    zero = present & ((rank < TRANSLATIONS) | (magnitude <= zero_cutoff))
     negative = present & ~zero & (eigenvalue < 0.0)
     squared = np.where(present & ~zero & ~negative, eigenvalue, np.nan)
     return Frequencies(np.sqrt(squared), zero.sum(axis=1), negative.sum(axis=1))
@@ -106,7 +107,7 @@ def density_of_states(count: np.ndarray, n: int, edges: np.ndarray) -> Average:
     return average(density.T, np.ones(density.T.shape, dtype=bool))
 
 
-def mode_average(count: np.ndarray, sums: Sums) -> Average:
+def mode_average(count: np.ndarray, sums: BinSums) -> Average:
     """Mean of a number per mode in each bin, as psi of A, Eqs. 51-52.
 
     Args:
@@ -115,14 +116,14 @@ def mode_average(count: np.ndarray, sums: Sums) -> Average:
 
     Returns:
         arrays (B,): mean, NaN in an empty bin (A plots 0 there); error, NaN unless two samples
-        have modes in the bin or errors are stated; number of samples that have.
+        have modes in the bin or errors are stated; number of samples with modes in the bin.
     """
     known = np.isfinite(sums.total) & (count > 0)
-    count, total, stated = (np.where(known, of, 0.0) for of in (count, *sums))
+    count, total, stated = (np.where(known, values, 0.0) for values in (count, *sums))
     samples, size = known.sum(axis=0), np.isfinite(sums.total).sum(axis=0)
     with np.errstate(invalid="ignore", divide="ignore"):
         ratio = total.sum(axis=0) / count.sum(axis=0)
         scatter = ((total - ratio * count) ** 2).sum(axis=0) * size / (size - 1.0)
         error = np.sqrt(np.where(samples > 1, scatter, np.nan)) / count.sum(axis=0)
-        floor = np.sqrt((stated**2).sum(axis=0)) / count.sum(axis=0)
-    return Average(ratio, np.fmax(error, np.where(floor > 0, floor, np.nan)), samples)
+        least = np.sqrt((stated**2).sum(axis=0)) / count.sum(axis=0)
+    return Average(ratio, np.fmax(error, np.where(least > 0, least, np.nan)), samples)

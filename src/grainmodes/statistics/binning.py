@@ -4,7 +4,7 @@ A, Sec. IV B: the range of the data is divided into 50 logarithmic intervals; th
 highest is divided anew into 500 linear ones, and last the part of the range within
 0.1 omega_R < omega < 2 omega_R, omega_R t_0 = (k_T / k_N)^(1/2), into 100 linear ones.
 
-`Binned` is the one form of every spectrum that a figure shows, whether its modes are known one by
+`BinnedModes` is the form of every spectrum that a figure shows, whether its modes are known one by
 one or were counted in bins with averages of psi^R and p.
 """
 
@@ -21,19 +21,18 @@ ROTATIONAL_DIVISIONS = 100
 ROTATIONAL_WINDOW = (0.1, 2.0)
 """Range of omega / omega_R that is divided linearly."""
 
-
-LOWEST = 0.01
+LOWEST_EDGE = 0.01
 """First edge of counted bins, in omega_R."""
 
-SAFE = 1e-7
-"""Lowest omega t_0 that counts can tell from a zero mode."""
+LOWEST_SAFE_EDGE = 1e-7
+"""Lowest omega t_0 at which a count distinguishes a vibration from a zero mode."""
 
-STIFFEST = 2.5
+HIGHEST_EDGE = 2.5
 """Last edge of counted bins at k_T = 0, 1/t_0; the stiffest Hertzian mode lies near 1.4, the
 stiffest harmonic one, and that of the effective Hessian as printed, near 2.4."""
 
 
-class Sums(NamedTuple):
+class BinSums(NamedTuple):
     """Sums of a number per mode over the modes of each bin, with the error stated for each.
 
     `total` (S, B) is NaN where the number is not known, `error` (S, B) 0 where the sum is exact.
@@ -43,7 +42,7 @@ class Sums(NamedTuple):
     error: np.ndarray
 
 
-class Binned(NamedTuple):
+class BinnedModes(NamedTuple):
     """The modes of S samples in B bins.
 
     `edges` (B + 1,), 1/t_0; `count` (S, B) modes of each sample in each bin; `outside` (S,) modes
@@ -53,16 +52,16 @@ class Binned(NamedTuple):
     edges: np.ndarray
     count: np.ndarray
     outside: np.ndarray
-    psi_rotational: Sums
-    participation_ratio: Sums
+    psi_rotational: BinSums
+    participation_ratio: BinSums
 
-    def in_bins(self, edges: np.ndarray) -> Binned:
-        """These bins, whatever `edges`: what was counted cannot be divided anew."""
+    def in_bins(self, edges: np.ndarray) -> BinnedModes:
+        """Return itself whatever `edges`, because counts cannot be divided into other bins."""
         return self
 
 
 def bin_edges(kappa: float, lowest: float, highest: float, bin_density: float = 1.0) -> np.ndarray:
-    """Edges of A's bins over the range of the data.
+    """The edges of A's bins over the range of the data.
 
     Args:
         kappa: k_T / k_N; 0 has no rotational window.
@@ -87,16 +86,16 @@ def bin_edges(kappa: float, lowest: float, highest: float, bin_density: float = 
 
 
 def fixed_edges(kappa: float, bin_density: float) -> np.ndarray:
-    """A's bins over a range that depends on the point alone, for spectra that are only counted.
+    """A's bins over a range that depends on the point alone, for spectra that are counted in bins.
 
-    From 0.01 omega_R, at most 1e-3 and at least the lowest safe edge 1e-7, to beyond the stiffest
-    mode of usual packings, 2.5 (1 + kappa)^(1/2). Modes outside are counted as such.
+    They reach from 0.01 omega_R, at most 1e-3 and at least the lowest safe edge 1e-7, to beyond the
+    stiffest mode of usual packings, 2.5 (1 + kappa)^(1/2). Modes outside are counted too.
 
     Returns:
         (B + 1,) 1/t_0, ascending.
     """
-    lowest = np.clip(LOWEST * np.sqrt(kappa), SAFE, 1e-3) if kappa > 0.0 else 1e-3
-    return bin_edges(kappa, lowest, STIFFEST * np.sqrt(1.0 + kappa), bin_density)
+    lowest = np.clip(LOWEST_EDGE * np.sqrt(kappa), LOWEST_SAFE_EDGE, 1e-3) if kappa > 0.0 else 1e-3
+    return bin_edges(kappa, lowest, HIGHEST_EDGE * np.sqrt(1.0 + kappa), bin_density)
 
 
 def _redivided(edges: np.ndarray, start: float, stop: float, divisions: float) -> np.ndarray:
@@ -104,14 +103,14 @@ def _redivided(edges: np.ndarray, start: float, stop: float, divisions: float) -
     return np.concatenate([edges[edges < start], linear, edges[edges > stop]])
 
 
-def binned(
+def bin_modes(
     frequency: np.ndarray,
     modes: np.ndarray,
     psi_rotational: np.ndarray,
     participation_ratio: np.ndarray,
     edges: np.ndarray,
-) -> Binned:
-    """Modes known one by one, in bins.
+) -> BinnedModes:
+    """Put modes that are known one by one into bins.
 
     Args:
         frequency: (S, M) 1/t_0, NaN where there is no vibration.
@@ -121,8 +120,11 @@ def binned(
     """
     count = occupation(frequency, edges)
     exact = np.zeros_like(count)
-    sums = (occupation(frequency, edges, of) for of in (psi_rotational, participation_ratio))
-    return Binned(edges, count, modes - count.sum(axis=1), *(Sums(of, exact) for of in sums))
+    psi, participation = (
+        BinSums(occupation(frequency, edges, weight), exact)
+        for weight in (psi_rotational, participation_ratio)
+    )
+    return BinnedModes(edges, count, modes - count.sum(axis=1), psi, participation)
 
 
 def bin_centres(edges: np.ndarray) -> np.ndarray:
@@ -145,7 +147,7 @@ def occupation(
     """
     weight = np.ones_like(frequency) if weight is None else weight
     rows = [
-        np.histogram(row[np.isfinite(row)], edges, weights=of[np.isfinite(row)])[0]
-        for row, of in zip(frequency, weight, strict=True)
+        np.histogram(row[np.isfinite(row)], edges, weights=weights[np.isfinite(row)])[0]
+        for row, weights in zip(frequency, weight, strict=True)
     ]
     return np.array(rows).reshape(len(frequency), len(edges) - 1)

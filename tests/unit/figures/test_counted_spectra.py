@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 import synthetic
 from grainmodes.dataset.files import BlockError, write_block
 from grainmodes.ensemble import merge_blocks, open_ensemble, write_ensemble
-from grainmodes.ensemble.spectra import counted, spectrum
+from grainmodes.ensemble.spectra import binned_spectrum, spectrum
 from grainmodes.figures.paper_a import dos, dos_phi, participation, participation_ratio
 from grainmodes.figures.shared import spectral_rows
 from grainmodes.figures.shared.selection import Options
@@ -19,7 +19,7 @@ POINT = (16, 0.90, 1e-4)
 def test_modes_and_bins_give_the_same_numbers(whole_ensemble, counted_ensemble):
     for kappa in (0.0, 1e-8, 1e-4, 10.0):
         point = (16, 0.90, kappa)
-        bins = counted(counted_ensemble, *point)
+        bins = binned_spectrum(counted_ensemble, *point)
         modes = spectrum(whole_ensemble, *point).in_bins(bins.edges)
         assert_array_equal(bins.edges, synthetic.edges(kappa))
         assert_array_equal(bins.count, modes.count)

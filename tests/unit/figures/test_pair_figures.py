@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 import synthetic
 from grainmodes.ensemble import open_ensemble
-from grainmodes.ensemble.exceptional import samples
+from grainmodes.ensemble.exceptional import pair_samples
 from grainmodes.figures.paper_c import pair_birth, pair_exponent, pair_overlap
 from grainmodes.figures.shared.selection import Options
 
@@ -22,11 +22,16 @@ def paired(tmp_path_factory):
 
 
 def test_samples_know_their_points_and_the_states_around_them(paired):
-    found = samples(paired)
-    assert [(s.place["n"], s.place["seed"]) for s in found] == [(8, 0), (8, 1), (16, 0), (16, 1)]
+    found = pair_samples(paired)
+    assert [(s.coordinates["n"], s.coordinates["seed"]) for s in found] == [
+        (8, 0),
+        (8, 1),
+        (16, 0),
+        (16, 1),
+    ]
     one = found[0]
-    assert one.points["strain"].tolist() == [4e-3, 8e-3]
-    assert len(one.near) == 16
+    assert one.exceptional_points["strain"].tolist() == [4e-3, 8e-3]
+    assert len(one.neighbours) == 16
     assert len(one.products) == 4 * 13
     assert found[2].products.empty
 

@@ -36,7 +36,7 @@ def test_a_curve_knows_what_happened_in_its_steps(sheared):
     assert curve.strain[:-1][curve.event] == 4.01e-3
     assert curve.strain[:-1][curve.changed] == 8e-3
     assert curve.quiet.sum() == 10
-    assert_allclose(curve.missing, np.where(curve.event, -1e-3, 0.0), atol=1e-15)
+    assert_allclose(curve.deviation, np.where(curve.event, -1e-3, 0.0), atol=1e-15)
     (approach,) = curve.approaches
     assert_allclose(curve.strain[approach.states], [2e-3, 3e-3, 4e-3, 4.01e-3])
 
@@ -46,14 +46,14 @@ def test_an_approach_begins_after_the_last_change():
     for first, last in curve.approaches:
         assert curve.event[last]
         assert curve.quiet[first:last].all()
-        assert curve.strain[last] - curve.strain[first] <= 2.5 * curve.longest
+        assert curve.strain[last] - curve.strain[first] <= 2.5 * curve.longest_step
 
 
 def test_slopes_leave_events_out(sheared):
     curve = curves(sheared, 16, 0.9, 1.0)[0]
     edges = np.array([0.0, 5e-3, 1.1e-2, 2e-2])
-    assert_allclose(curve.slopes(curve.rise, edges), [0.3, 0.3, np.nan])
-    assert_allclose(curve.slopes(curve.predicted, edges), [0.3, 0.3, np.nan])
+    assert_allclose(curve.mean_slopes(curve.stress_change, edges), [0.3, 0.3, np.nan])
+    assert_allclose(curve.mean_slopes(curve.predicted_change, edges), [0.3, 0.3, np.nan])
 
 
 def test_stress_of_theory_is_that_of_the_state_before(sheared):

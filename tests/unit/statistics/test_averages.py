@@ -116,7 +116,7 @@ def test_density_of_states_counts_a_sample_without_modes_as_zero():
 
 
 def exact(*totals):
-    return binning.Sums(np.array(totals), np.zeros_like(totals))
+    return binning.BinSums(np.array(totals), np.zeros_like(totals))
 
 
 def test_mode_average_is_a_ratio_of_sums_not_a_mean_of_ratios():
@@ -139,17 +139,17 @@ def test_mode_average_leaves_out_samples_in_which_the_number_is_unknown():
 
 def test_stated_errors_are_the_least_that_an_average_has():
     count, total = np.array([[2.0, 2.0], [2.0, 2.0]]), np.array([[1.0, 0.2], [1.0, 1.8]])
-    result = averages.mode_average(count, binning.Sums(total, np.full((2, 2), 0.3)))
+    result = averages.mode_average(count, binning.BinSums(total, np.full((2, 2), 0.3)))
     assert_allclose(result.standard_error[0], 0.3 * np.sqrt(2) / 4)
     assert_allclose(result.standard_error[1], np.sqrt(2 * 2 * 0.8**2) / 4)
-    single = averages.mode_average(count[:1], binning.Sums(total[:1], np.array([[0.3, 0.0]])))
+    single = averages.mode_average(count[:1], binning.BinSums(total[:1], np.array([[0.3, 0.0]])))
     assert_allclose(single.standard_error, [0.15, np.nan])
 
 
 def test_modes_in_bins_are_sums_and_what_lies_outside():
     frequency = np.array([[np.nan, 0.5, 0.6, 1.5, 9.0], [0.1, 1.0, 2.0, np.nan, np.nan]])
     psi = np.array([[0.0, 0.25, 0.5, 1.0, 1.0], [1.0, 0.1, 0.2, np.nan, np.nan]])
-    found = binning.binned(
+    found = binning.bin_modes(
         frequency, np.array([5, 3]), psi, np.nan * psi, np.array([0.2, 1.0, 2.0])
     )
     assert_array_equal(found.count, [[2, 1], [0, 2]])

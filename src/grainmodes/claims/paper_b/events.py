@@ -2,7 +2,7 @@
 
     symbol       name                                                       paper B
     γ_c          middle of the bracket of an event                          App. B
-    λ_min        Curve.lowest                                               Figs. 3, 7, 13
+    λ_min        Curve.lowest_eigenvalue                                    Figs. 3, 7, 13
     g            Curve.modulus                                              Figs. 3, 7
 
 Seen are the states that lead up to an event on the same contacts, over the last steps Δγ_in at most
@@ -72,7 +72,7 @@ def _seen(curve: Curve, fewest: int) -> list[Approach]:
 
 def _trends(curve: Curve) -> np.ndarray:
     seen = _seen(curve, 2)
-    first, last = (curve.lowest[[a[side] for a in seen]] for side in (0, 1))
+    first, last = (curve.lowest_eigenvalue[[a[side] for a in seen]] for side in (0, 1))
     return (last - first) / np.abs(first)
 
 
@@ -83,17 +83,19 @@ def _trend(curve: Curve) -> float:
 def _share_of_jumps(curve: Curve) -> float:
     sudden = []
     for first, last in _seen(curve, 2):
-        slope = (curve.lowest[last] - curve.lowest[first]) / (
+        slope = (curve.lowest_eigenvalue[last] - curve.lowest_eigenvalue[first]) / (
             curve.strain[last] - curve.strain[first]
         )
-        change = curve.lowest[last + 1] - curve.lowest[last]
+        change = curve.lowest_eigenvalue[last + 1] - curve.lowest_eigenvalue[last]
         sudden.append(abs(change) > SUDDEN * abs(slope) * curve.step[last])
-    return np.mean(sudden) if sudden and np.isfinite(curve.lowest).all() else np.nan
+    return np.mean(sudden) if sudden and np.isfinite(curve.lowest_eigenvalue).all() else np.nan
 
 
 def _size_of_jump(curve: Curve) -> float:
     (last,) = np.nonzero(curve.event)
-    change = np.abs(curve.lowest[last + 1] - curve.lowest[last]) / np.abs(curve.lowest[last])
+    change = np.abs(curve.lowest_eigenvalue[last + 1] - curve.lowest_eigenvalue[last]) / np.abs(
+        curve.lowest_eigenvalue[last]
+    )
     return np.mean(change) if len(last) else np.nan
 
 

@@ -60,7 +60,7 @@ def theory_is_simulation(ensemble) -> Outcome:
 
 
 def _of_stress(curve: Curve) -> float:
-    missing = curve.missing[~curve.event]
+    missing = curve.deviation[~curve.event]
     return np.sqrt((missing**2).mean() / (curve.stress**2).mean())
 
 
@@ -77,7 +77,7 @@ def _loud(curve: Curve) -> np.ndarray:
 
 
 def _relative(curve: Curve, steps: np.ndarray) -> float:
-    return np.abs(curve.missing[steps]).sum() / np.abs(curve.predicted[steps]).sum()
+    return np.abs(curve.deviation[steps]).sum() / np.abs(curve.predicted_change[steps]).sum()
 
 
 def _order(curve: Curve) -> float:
@@ -85,7 +85,7 @@ def _order(curve: Curve) -> float:
     above = 5.0 * curve.step.min(initial=np.inf)
     slopes = []
     for first, last in curve.approaches:
-        step, missing = curve.step[first:last], np.abs(curve.missing[first:last])
+        step, missing = curve.step[first:last], np.abs(curve.deviation[first:last])
         used = (step > above) & (missing > 0.0)
         x, y = np.log10(step[used]), np.log10(missing[used])
         if used.sum() > 2 and np.ptp(x) >= DECADES:
@@ -105,8 +105,8 @@ def mean_rigidity(ensemble) -> Outcome:
     parts, notes = [], []
     for where, of in sheared(ensemble, "curve_g_xy"):
         edges = even_bins(of, BINS)
-        theory = np.array([curve.slopes(curve.predicted, edges) for curve in of])
-        simulation = np.array([curve.slopes(curve.rise, edges) for curve in of])
+        theory = np.array([curve.mean_slopes(curve.predicted_change, edges) for curve in of])
+        simulation = np.array([curve.mean_slopes(curve.stress_change, edges) for curve in of])
         for bin_, (low, high) in enumerate(pairwise(edges)):
             difference = relative_difference(simulation[:, bin_], theory[:, bin_])
             parts.append(

@@ -1,9 +1,9 @@
 """Claims of paper C on the birth and death of complex pairs: C1 to C3.
 
     symbol        name                                                         paper C
-    γ_c           Sample.points["strain"], by D = 0                            (20)
-    λ1 − λ2       the root of Sample.near["discriminant"]                      (21)
-    ⟨u1|u2⟩       Sample.near["product"]                                       Figs. 2 and 3
+    γ_c           PairSample.exceptional_points["strain"], where D = 0         (20)
+    λ1 − λ2       the root of PairSample.neighbours["discriminant"]            (21)
+    ⟨u1|u2⟩       PairSample.neighbours["product"]                             Figs. 2 and 3
 
 Means over the exceptional points of a sample first, over the samples then.
 """
@@ -17,7 +17,7 @@ import pandas as pd
 
 from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
 from grainmodes.claims.samples import FEWEST, at, sizes
-from grainmodes.ensemble.exceptional import Sample, samples
+from grainmodes.ensemble.exceptional import PairSample, pair_samples
 from grainmodes.statistics.estimates import Estimate, mean
 
 EXPONENT, TOLERANCE = 0.5, 0.01
@@ -73,12 +73,12 @@ def square_root(ensemble) -> Outcome:
                 found = _over(of, lambda s, b=birth, k=side: _exponent(s, b, k))
                 if np.isfinite(found.error):
                     parts.append(Part(f"{event}, {side}, {where}", found, low, high))
-    counted = sum(len(sample.points) for sample in samples(ensemble))
+    counted = sum(len(sample.exceptional_points) for sample in pair_samples(ensemble))
     return Outcome(parts, f"Fitted at {counted} exceptional points.")
 
 
-def _exponent(sample: Sample, birth: int, side: str) -> float:
-    points = sample.points
+def _exponent(sample: PairSample, birth: int, side: str) -> float:
+    points = sample.exceptional_points
     return float(points.loc[points["birth"] == birth, f"exponent_{side}"].median())
 
 
@@ -101,13 +101,13 @@ def parallel_eigenvectors(ensemble) -> Outcome:
     return Outcome(parts, " ".join(notes))
 
 
-def _real(sample: Sample) -> pd.DataFrame:
+def _real(sample: PairSample) -> pd.DataFrame:
     """The states around γ_c with two real modes, |γ − γ_c| ascending."""
-    near = sample.near[sample.near["discriminant"] > 0.0]
+    near = sample.neighbours[sample.neighbours["discriminant"] > 0.0]
     return near.assign(size=near["distance"].abs()).sort_values("size")
 
 
-def _at_the_point(sample: Sample) -> float:
+def _at_the_point(sample: PairSample) -> float:
     """The product at γ_c, mean over the coalescences with at least two states."""
     pairs = [of.iloc[:2] for _, of in _real(sample).groupby("point") if len(of) > 1]
     return float(np.mean([_extrapolated(*of["size"], *of["product"]) for of in pairs]))
@@ -118,7 +118,7 @@ def _extrapolated(near: float, far: float, product: float, other: float) -> floa
     return (far * product - near * other) / (far - near)
 
 
-def _grouped(ensemble) -> Iterator[tuple[str, list[Sample]]]:
+def _grouped(ensemble) -> Iterator[tuple[str, list[PairSample]]]:
     """The name of every point, and its samples with coalescences, where there are enough.
 
     Raises:
@@ -126,15 +126,15 @@ def _grouped(ensemble) -> Iterator[tuple[str, list[Sample]]]:
     """
     if "exceptional_point_kind" not in ensemble:
         raise NotAsked("exceptional_point_kind, exceptional points of complex pairs")
-    groups: dict[tuple, list[Sample]] = {}
-    for sample in samples(ensemble):
-        place = sample.place
+    groups: dict[tuple, list[PairSample]] = {}
+    for sample in pair_samples(ensemble):
+        place = sample.coordinates
         groups.setdefault((place["n"], place["phi"], place["kt"]), []).append(sample)
     for (n, phi, kt), of in groups.items():
         if len(of) >= FEWEST:
             yield f"N = {n}, {at(phi, kt)}", of
 
 
-def _over(of: list[Sample], number: Callable[[Sample], float]) -> Estimate:
+def _over(of: list[PairSample], number: Callable[[PairSample], float]) -> Estimate:
     """Mean over the samples of a number; NaN leaves a sample out."""
     return mean(np.array([number(sample) for sample in of]))

@@ -10,7 +10,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grainmodes.ensemble.spectra import counted, points_with, spectrum
+from grainmodes.ensemble.spectra import binned_spectrum, points_with, spectrum
 from grainmodes.figures.shared import appearance, spectral_rows
 from grainmodes.figures.shared.panels import draw_densities
 from grainmodes.figures.shared.selection import Options, panels, positive
@@ -50,7 +50,7 @@ def table(ensemble, options: Options) -> pd.DataFrame:
 
 
 def _panel_rows(ensemble, point: spectral_rows.Point) -> pd.DataFrame:
-    bins = {kind: counted(ensemble, *point, ending) for kind, ending in HESSIANS.items()}
+    bins = {kind: binned_spectrum(ensemble, *point, ending) for kind, ending in HESSIANS.items()}
     bins["jacobian"] = spectrum(ensemble, *point).in_bins(bins["hessian"].edges)
     return spectral_rows.stacked(
         [spectral_rows.of_bins(of, point, kind) for kind, of in bins.items()]

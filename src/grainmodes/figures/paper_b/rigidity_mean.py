@@ -39,8 +39,8 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         return pd.DataFrame(columns=list(COLUMNS))
     edges = even_bins(of, min(BINS, max(len(curve.step) for curve in of)))
     kinds = {
-        "theory": [curve.slopes(curve.predicted, edges) for curve in of],
-        "simulation": [curve.slopes(curve.rise, edges) for curve in of],
+        "theory": [curve.mean_slopes(curve.predicted_change, edges) for curve in of],
+        "simulation": [curve.mean_slopes(curve.stress_change, edges) for curve in of],
     }
     parts = [_rows(kind, np.array(slopes), edges) for kind, slopes in kinds.items()]
     rows = pd.concat(parts, ignore_index=True).assign(**point)[list(COLUMNS)]

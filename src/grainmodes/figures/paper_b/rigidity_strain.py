@@ -43,12 +43,12 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     curve, rows = sample(ensemble, options, COLUMNS)
     if curve is None:
         return rows
-    slope = np.where(curve.event, np.nan, curve.rise / curve.step)
+    slope = np.where(curve.event, np.nan, curve.stress_change / curve.step)
     rows = rows.assign(
         strain=curve.strain,
         rigidity=curve.modulus,
         rigidity_simulated=np.append(slope, np.nan),
-        lowest_eigenvalue=curve.lowest,
+        lowest_eigenvalue=curve.lowest_eigenvalue,
         event=np.append(curve.event.astype(int), 0),
     )
     return rows[rows["strain"] <= _last(curve) * (1 + 1e-9)]

@@ -41,7 +41,7 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     return rows.assign(
         strain=curve.strain,
         stress=curve.stress,
-        stress_theory=np.concatenate([[np.nan], curve.stress[:-1] + curve.predicted]),
+        stress_theory=np.concatenate([[np.nan], curve.stress[:-1] + curve.predicted_change]),
         event=np.concatenate([[0], curve.event.astype(int)]),
     )
 

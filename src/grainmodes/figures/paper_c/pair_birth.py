@@ -39,7 +39,7 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         return pd.DataFrame(columns=list(COLUMNS))
     path = longest_pair(sample)
     born = (path["imaginary"] > 0.0).to_numpy().argmax()
-    return path.iloc[: born + AFTER].assign(**sample.place)[list(COLUMNS)]
+    return path.iloc[: born + AFTER].assign(**sample.coordinates)[list(COLUMNS)]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -11,7 +11,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grainmodes.ensemble.exceptional import Sample, samples
+from grainmodes.ensemble.exceptional import PairSample, pair_samples
 from grainmodes.figures.shared import appearance
 from grainmodes.figures.shared.paired_samples import EIGENVALUE, SAMPLE_COLUMNS, UNIT
 from grainmodes.figures.shared.selection import Options
@@ -37,16 +37,16 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     Raises:
         BlockError: its study did not ask for complex pairs.
     """
-    found = [s for s in samples(ensemble) if options.n in (None, s.place["n"])]
+    found = [s for s in pair_samples(ensemble) if options.n in (None, s.coordinates["n"])]
     parts = [_rows(sample) for sample in found]
     return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=list(COLUMNS))
 
 
-def _rows(sample: Sample) -> pd.DataFrame:
-    born = sample.points["birth"]
-    near = sample.near[sample.near["point"].isin(born.index)]
+def _rows(sample: PairSample) -> pd.DataFrame:
+    born = sample.exceptional_points["birth"]
+    near = sample.neighbours[sample.neighbours["point"].isin(born.index)]
     return near.assign(
-        **sample.place,
+        **sample.coordinates,
         birth=born.loc[near["point"].astype(int)].to_numpy(),
         pair=(near["discriminant"] < 0.0).astype(int),
         distance=near["distance"].abs(),

@@ -10,7 +10,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grainmodes.ensemble.exceptional import Sample
+from grainmodes.ensemble.exceptional import PairSample
 from grainmodes.figures.shared import appearance
 from grainmodes.figures.shared.paired_samples import (
     EIGENVALUE,
@@ -47,15 +47,15 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     few = [sample for sample in found if len(sample.products)]
     many = shown([sample for sample in found if not len(sample.products)], options)
     pair = many or shown(few, options)
-    parts = [longest_pair(pair).assign(**pair.place)] if pair else []
+    parts = [longest_pair(pair).assign(**pair.coordinates)] if pair else []
     if few:
         most = max(few, key=_clearest)
-        parts.append(most.products.assign(**most.place))
+        parts.append(most.products.assign(**most.coordinates))
     rows = pd.concat(parts) if parts else pd.DataFrame()
     return rows.reindex(columns=list(COLUMNS)).reset_index(drop=True)
 
 
-def _clearest(sample: Sample) -> int:
+def _clearest(sample: PairSample) -> int:
     """In how many states the mode is parallel to another one."""
     return int((sample.products["product"] > 1.0 - 1e-9).sum())
 

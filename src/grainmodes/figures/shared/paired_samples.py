@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grainmodes.ensemble.exceptional import Sample, samples
+from grainmodes.ensemble.exceptional import PairSample, pair_samples
 from grainmodes.figures.shared import appearance
 from grainmodes.figures.shared.selection import Options, first_or, largest_or
 from grainmodes.figures.shared.sheared_points import SAMPLE
@@ -19,7 +19,7 @@ FIRST, SECOND = "#2166ac", "#b2182b"
 """Colours of the two modes."""
 
 
-def shown(found: list[Sample], options: Options) -> Sample | None:
+def shown(found: list[PairSample], options: Options) -> PairSample | None:
     """The sample at the n, phi, kt and seed asked for; else the largest ones and the first seed.
 
     Raises:
@@ -28,24 +28,24 @@ def shown(found: list[Sample], options: Options) -> Sample | None:
     asked = {"n": options.n, "phi": options.phi, "kt": options.kt and options.kt[0]}
     for name, value in asked.items():
         if found:
-            chosen = largest_or(value, np.unique([s.place[name] for s in found]), name)
-            found = [s for s in found if s.place[name] == chosen]
+            chosen = largest_or(value, np.unique([s.coordinates[name] for s in found]), name)
+            found = [s for s in found if s.coordinates[name] == chosen]
     if not found:
         return None
-    seed = first_or(options.seed, np.unique([s.place["seed"] for s in found]), "seed")
-    return next(s for s in found if s.place["seed"] == seed)
+    seed = first_or(options.seed, np.unique([s.coordinates["seed"] for s in found]), "seed")
+    return next(s for s in found if s.coordinates["seed"] == seed)
 
 
-def with_paths(ensemble) -> list[Sample]:
+def with_paths(ensemble) -> list[PairSample]:
     """The samples in which two modes were followed.
 
     Raises:
         BlockError: its study did not ask for complex pairs.
     """
-    return [sample for sample in samples(ensemble) if len(sample.path)]
+    return [sample for sample in pair_samples(ensemble) if len(sample.path)]
 
 
-def longest_pair(sample: Sample) -> pd.DataFrame:
+def longest_pair(sample: PairSample) -> pd.DataFrame:
     """The path of the point whose modes are real before and after, and longest a pair between."""
     paths = [path for _, path in sample.path.groupby("point")]
     return max(paths, key=lambda path: (_between(path), (path["imaginary"] > 0.0).sum()))

@@ -12,7 +12,7 @@ from grainmodes.ensemble import bin_density
 from grainmodes.ensemble.spectra import shared_edges, spectrum
 from grainmodes.figures.shared.selection import Options
 from grainmodes.statistics import averages, binning
-from grainmodes.statistics.binning import Binned
+from grainmodes.statistics.binning import BinnedModes
 
 BINS = {
     "n": ("1", "number of grains N"),
@@ -69,7 +69,7 @@ def compared(ensemble, options: Options, kinds: dict[str, tuple[Point, str]]) ->
     return stacked(parts)
 
 
-def of_bins(modes: Binned, point: Point, kind: str) -> pd.DataFrame:
+def of_bins(modes: BinnedModes, point: Point, kind: str) -> pd.DataFrame:
     """The rows of one spectrum, with all columns and `kind`."""
     n, phi, kappa = point
     density = averages.density_of_states(modes.count, n, modes.edges)
