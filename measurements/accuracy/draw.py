@@ -22,8 +22,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from grainmodes.figures import RESOLUTION, STYLE
-from grainmodes.figures.shared import appearance
+from grainmodes.figures import DOTS_PER_INCH, STYLE
+from grainmodes.figures.shared import appearance, labels
 from grainmodes.runtime.atomic import replaced
 from measurements.accuracy.diagram import Row, knee
 from measurements.accuracy.table import Table, curves, read
@@ -59,7 +59,7 @@ def looks(names: list[str]) -> dict[str, Look]:
     """How each curve "who, what" is drawn; a name without a comma says what."""
     split = {name: _who_what(name) for name in names}
     whos, whats = (list(dict.fromkeys(part)) for part in zip(*split.values(), strict=True))
-    colours = {what: colour for what, colour, _ in appearance.series(whats)}
+    colours = {what: colour for what, colour, _ in appearance.curve_styles(whats)}
     return {
         name: Look(
             colours[what],
@@ -101,7 +101,7 @@ def draw(figure: Figure, table: Table) -> None:
     for kind, (marker, size) in RINGS.items():
         against_time.plot([], [], marker, label=kind, ms=size, **RING)
     for index, axes in enumerate((against_time, against_setting, memory)):
-        appearance.name_panel(axes, index, ("work and precision", "setting", "memory")[index])
+        labels.name_panel(axes, index, ("work and precision", "setting", "memory")[index])
     figure.legend(loc="outside lower center", ncols=3)
     figure.suptitle("\n".join(_caption(table)))
 
@@ -171,7 +171,7 @@ def _scale_memory(axes: Axes, table: Table) -> None:
 
 def _caption(table: Table) -> list[str]:
     words, counts = table.words, table.rows["samples"] + table.rows["failed"]
-    of = f"N = {words['grains']}, {appearance.samples(counts)}"
+    of = f"N = {words['grains']}, {labels.count_samples(counts)}"
     text = f"{words['title']}; {of}. Reference: {words['reference']}."
     return [*textwrap.wrap(text, CAPTION), f"{words['machine']}; grainmodes {words['code']}"]
 
@@ -188,7 +188,7 @@ def write(stem: Path, table: Table) -> None:
         draw(figure, table)
         png, pdf = (stem.with_name(stem.name + suffix) for suffix in (".png", ".pdf"))
         with replaced(png) as png, replaced(pdf) as pdf:
-            figure.savefig(png, format="png", dpi=RESOLUTION, metadata={"Software": None})
+            figure.savefig(png, format="png", dpi=DOTS_PER_INCH, metadata={"Software": None})
             figure.savefig(pdf, format="pdf", metadata={"CreationDate": None})
 
 

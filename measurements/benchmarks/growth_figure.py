@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from grainmodes import figures
 from grainmodes.cost.table import REFERENCE
-from grainmodes.figures.shared import appearance
+from grainmodes.figures.shared import appearance, labels
 from grainmodes.runtime.atomic import replaced
 from measurements.benchmarks.growth_laws import LAST, Fit, laws, per_sample
 
@@ -64,7 +64,7 @@ def draw(machine: str, rows: pd.DataFrame) -> plt.Figure:
     for index, (title, works) in enumerate(PANELS.items()):
         for place, name in enumerate(("seconds", "megabytes")):
             _panel(axes[place, index], samples, name, works, found, place)
-        appearance.name_panel(axes[0, index], index, title)
+        labels.name_panel(axes[0, index], index, title)
         _legend(axes[1, index], works, found)
     axes[0, 0].set(ylabel="CPU time of a sample (s)", xlim=(45, 90_000))
     axes[1, 0].set(ylabel="memory it adds (MB)")
@@ -77,7 +77,7 @@ LINES = f"lines: fits to the last {LAST} sizes; below a name: exponents of time,
 
 def _panel(axes: Axes, samples, name: str, works, found, place: int) -> None:
     """Symbols for what was measured, lines for the fitted laws."""
-    for work, colour, marker in appearance.series(list(works)):
+    for work, colour, marker in appearance.curve_styles(list(works)):
         of = samples[(samples["work"] == work) & samples[name].notna()]
         axes.loglog(of["n"], of[name], marker, color=colour, mfc="none", markersize=3.6)
         if work in found:
@@ -91,7 +91,7 @@ def _line(axes: Axes, law: Fit, sizes: np.ndarray, colour) -> None:
 
 def _legend(axes: Axes, works, found) -> None:
     """Names with the exponents of time and of memory, below the column."""
-    for work, colour, marker in appearance.series(list(works)):
+    for work, colour, marker in appearance.curve_styles(list(works)):
         if work in found:
             label = LABELS.get(work, work)
             exponents = ", ".join(map(_exponent, found[work]))

@@ -1,14 +1,21 @@
-"""Figures: each a picture, the same picture as vectors, and the plotted numbers.
+"""Figures of the papers: each a picture, the same picture as vectors, and the plotted numbers.
 
-A figure is a module of its paper's package, of the name in `parameters.figures.FIGURES`, with
+| package   | holds                                          |
+| --------- | ---------------------------------------------- |
+| `paper_a` | figures of paper A, a module each              |
+| `paper_b` | figures of paper B                             |
+| `paper_c` | figures of paper C, and a film of its Fig. 5   |
+| `shared`  | what several figures need: rows, panels, words |
+
+The name of a figure in `parameters.figures.FIGURES` is the name of its module, which has
 
     COLUMNS                      column → (unit, meaning), in the order of the CSV file
     table(source, options)       the plotted numbers, a pure function
     draw(figure, table)          the picture of these numbers and of nothing else
 
-Its source is the ensemble, or the files of single samples: a list of blocks.
+The source is the ensemble, or a list of blocks: the files of single samples.
 
-Modules are imported by name when they are drawn, so that an edit of one touches that figure only.
+Modules are imported by name when they are drawn, so that an edit of one affects its figure only.
 """
 
 from __future__ import annotations
@@ -23,15 +30,16 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from grainmodes.ensemble import open_ensemble
-from grainmodes.figures.shared import appearance, field_rows
+from grainmodes.figures.shared.labels import say_empty
+from grainmodes.figures.shared.sample_files import read_samples
 from grainmodes.figures.shared.selection import Options
 from grainmodes.parameters.figures import FIGURES
 from grainmodes.runtime.atomic import replaced
 
 STYLE = Path(__file__).with_name("grainmodes.mplstyle")
-RESOLUTION = 300
-FINE_RESOLUTION = 450
-"""Dots per inch of what is pixels within a PDF: crowds of symbols."""
+DOTS_PER_INCH = 300
+PDF_DOTS_PER_INCH = 450
+"""Resolution of the parts of a PDF that are pixels: maps and curves of very many symbols."""
 
 
 def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options: dict) -> None:
@@ -39,13 +47,12 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
 
     Args:
         name: a key of `parameters.figures.FIGURES`.
-        data: file of `write_ensemble`; a list of files, where the figure's source is a stage that
-            keeps single samples.
+        data: file of `write_ensemble`; a list of files if the figure shows single samples.
         out_stem: path without suffix.
         options: keys of `selection.Options`; {} for the choices of the paper.
 
     Raises:
-        ValueError: unknown figure or option, or a value that the source does not have.
+        ValueError: the figure or an option is unknown, or the source lacks a requested value.
         BlockError: a file is not readable, or lacks the observable.
         OSError: a file cannot be written.
     """
@@ -58,7 +65,7 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
         figure = Figure()
         FigureCanvasAgg(figure)
         if table.empty:
-            appearance.say_empty(figure)
+            say_empty(figure)
         else:
             module.draw(figure, table)
         _write(Path(out_stem), figure, table, _header(name, module.COLUMNS))
@@ -66,10 +73,10 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
 
 @contextmanager
 def _opened(name: str, data: str | Path | list[Path]) -> Iterator:
-    """What a figure is drawn from."""
+    """The ensemble or the blocks from which a figure is drawn."""
     source = FIGURES[name].source
     if source != "ensemble":
-        yield field_rows.read(data, source)
+        yield read_samples(data, source)
     else:
         with open_ensemble(data) as ensemble:
             yield ensemble
@@ -84,6 +91,6 @@ def _header(name: str, columns: dict[str, tuple[str, str]]) -> str:
 def _write(stem: Path, figure: Figure, table, header: str) -> None:
     png, pdf, csv = (stem.with_name(stem.name + suffix) for suffix in (".png", ".pdf", ".csv"))
     with replaced(png) as png, replaced(pdf) as pdf, replaced(csv) as csv:
-        figure.savefig(png, format="png", dpi=RESOLUTION, metadata={"Software": None})
-        figure.savefig(pdf, format="pdf", dpi=FINE_RESOLUTION, metadata={"CreationDate": None})
+        figure.savefig(png, format="png", dpi=DOTS_PER_INCH, metadata={"Software": None})
+        figure.savefig(pdf, format="pdf", dpi=PDF_DOTS_PER_INCH, metadata={"CreationDate": None})
         csv.write_text(header + table.to_csv(index=False), encoding="utf-8")

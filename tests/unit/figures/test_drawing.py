@@ -9,7 +9,7 @@ import pytest
 import synthetic
 from grainmodes.dataset.files import BlockError
 from grainmodes.figures import draw
-from grainmodes.figures.shared import appearance
+from grainmodes.figures.shared import labels
 from grainmodes.parameters.figures import FIGURES
 from pictures import numbers_of
 
@@ -105,11 +105,11 @@ def test_a_figure_that_fails_half_way_leaves_the_old_one(path, tmp_path, monkeyp
     [(1e-8, "10^{-8}"), (0.0, "0"), (2.0, "2"), (0.03, r"3\times 10^{-2}"), (1e-2, "10^{-2}")],
 )
 def test_numbers_as_formulas(value, text):
-    assert appearance.power(value) == text
+    assert labels.power(value) == text
 
 
 def test_labels_of_samples_and_fractions():
-    assert appearance.samples([8, 8]) == "8 samples"
-    assert appearance.samples(np.array([6, 8])) == "6–8 samples"
-    assert appearance.samples([1]) == "1 sample"
-    assert [appearance.fraction(phi) for phi in (0.9, 0.845)] == ["0.90", "0.845"]
+    assert labels.count_samples([8, 8]) == "8 samples"
+    assert labels.count_samples(np.array([6, 8])) == "6–8 samples"
+    assert labels.count_samples([1]) == "1 sample"
+    assert [labels.fraction(phi) for phi in (0.9, 0.845)] == ["0.90", "0.845"]

@@ -11,8 +11,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 from grainmodes.dataset.files import Block, BlockError, write_block
 from grainmodes.figures import draw
 from grainmodes.figures.paper_a import affine_fields, eigenvectors, nonaffine_field
-from grainmodes.figures.shared.field_rows import grains
-from grainmodes.figures.shared.grain_maps import OUTLINED, Scale, draw_map, rounded
+from grainmodes.figures.shared.grain_maps import MAX_OUTLINED_GRAINS, Scale, draw_map, one_digit
+from grainmodes.figures.shared.grain_rows import grain_rows
 from grainmodes.figures.shared.selection import Options
 from grainmodes.parameters.figures import FIGURES
 from pictures import numbers_of
@@ -204,7 +204,7 @@ def test_a_grain_across_the_edge_is_drawn_on_both_sides():
 
 def test_a_crowd_is_pixels_and_a_few_grains_are_outlines():
     few, many = (drawn(fields(n=n), "nonaffine")[0] for n in (36, 1156))
-    assert 36 < OUTLINED < 1156
+    assert 36 < MAX_OUTLINED_GRAINS < 1156
     assert (few.get_rasterized(), many.get_rasterized()) == (False, True)
     assert (len(few.get_edgecolor()), len(many.get_edgecolor())) == (1, 0)
 
@@ -213,10 +213,10 @@ def test_a_scale_fits_all_but_a_few_arrows():
     table = pd.DataFrame(
         {"u_x": np.arange(100.0), "u_y": 0.0, "u_rotation": -np.arange(100.0) / 10}
     )
-    scale = Scale.of(table, ("u",), arrow=1.5)
+    scale = Scale.from_fields(table, ("u",), arrow=1.5)
     assert scale.length * np.quantile(table["u_x"], 0.95) == pytest.approx(1.5)
     assert (scale.key, scale.limit) == (90.0, 10.0)
-    nothing_turns = Scale.of(table.assign(u_rotation=np.nan), ("u",), arrow=1.0)
+    nothing_turns = Scale.from_fields(table.assign(u_rotation=np.nan), ("u",), arrow=1.0)
     assert nothing_turns.limit == 0.0
 
 
@@ -224,7 +224,7 @@ def test_a_scale_fits_all_but_a_few_arrows():
     ("value", "digit"), [(0.0437, 0.04), (9.7, 10.0), (1.0, 1.0), (250.0, 200.0), (0.0, 0.0)]
 )
 def test_keys_have_one_digit(value, digit):
-    assert rounded(value) == pytest.approx(digit)
+    assert one_digit(value) == pytest.approx(digit)
 
 
 @pytest.mark.parametrize("rotates", [True, False])
@@ -238,6 +238,6 @@ def test_a_colour_bar_stands_where_something_turns(rotates):
 
 
 def test_rows_say_where_a_grain_is():
-    row = grains(fields()).iloc[7]
+    row = grain_rows(fields()).iloc[7]
     assert (row["n"], row["phi"], row["kt"], row["box_length"]) == (36, 0.9, 1e-4, 6.0)
     assert (row["x"], row["y"], row["diameter"]) == (1.25, 1.25, 0.9)

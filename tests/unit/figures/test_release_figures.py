@@ -20,7 +20,7 @@ from grainmodes.figures.paper_c import (
     release_spectrum,
     release_spirals,
 )
-from grainmodes.figures.shared.release_rows import growing
+from grainmodes.figures.shared.release_rows import growing_records
 from grainmodes.figures.shared.selection import Options
 from grainmodes.parameters.figures import FIGURES
 from grainmodes.parameters.release import Release
@@ -73,8 +73,8 @@ def test_growth_shows_records_and_the_laws_through_them(release):
 
 def test_a_growth_is_shown_until_a_little_after_its_end():
     table = pd.DataFrame({"time": np.arange(0.0, 30.0), "end_time": 10.0})
-    assert_array_equal(growing(table)["time"], np.arange(1.0, 13.0))
-    assert len(growing(table.assign(end_time=np.nan))) == 29
+    assert_array_equal(growing_records(table)["time"], np.arange(1.0, 13.0))
+    assert len(growing_records(table.assign(end_time=np.nan))) == 29
 
 
 def test_spirals_end_where_the_film_does(release):
@@ -134,7 +134,7 @@ def test_two_files_of_the_same_samples_are_refused(path, tmp_path):
 
 
 def test_the_film_moves_and_is_written_by_a_command(release, tmp_path, monkeypatch):
-    monkeypatch.setattr(film, "RESOLUTION", 40)
+    monkeypatch.setattr(film, "DOTS_PER_INCH", 40)
     names = ("release_film", "release_frame_time")
     short = {name: release.variables[name][:, :12] for name in names}
     write_block(tmp_path / "x.nc", Block(release.variables | short, release.attributes))

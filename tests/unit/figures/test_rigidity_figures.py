@@ -6,7 +6,7 @@ import synthetic
 from grainmodes.ensemble import open_ensemble, write_ensemble
 from grainmodes.figures import draw
 from grainmodes.figures.paper_a import g_kt, g_nonaffine, g_phi
-from grainmodes.figures.shared import appearance
+from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.selection import Options
 
 
@@ -26,7 +26,7 @@ def test_the_unit_of_a_modulus_follows_the_contact_law(tmp_path):
     for law, label in {"hertz": "$G$ / $(k_N d^{1/2})$", "harmonic": "$G$ / $k_N$"}.items():
         write_ensemble([point], tmp_path / f"{law}.nc", {"contact_law": {"normal": law}})
         with open_ensemble(tmp_path / f"{law}.nc") as dataset:
-            assert appearance.modulus_label("$G$", g_phi.table(dataset, Options())) == label
+            assert labels.modulus_label("$G$", g_phi.table(dataset, Options())) == label
 
 
 def test_unjammed_points_are_drawn_at_zero(ensemble):

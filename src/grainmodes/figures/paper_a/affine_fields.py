@@ -1,4 +1,9 @@
-"""Affine and non-affine displacements of a simulated step strain in one sample (A, Fig. 2)."""
+"""Affine and non-affine displacements of a simulated step strain in one sample: A, Fig. 2.
+
+Left the affine displacement of every grain, right the non-affine displacement that the relaxation
+adds, A (10) to (13); both per unit strain. Arrows are displacements, each map on its own scale;
+colours are rotations ℓ.
+"""
 
 from __future__ import annotations
 
@@ -7,8 +12,9 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import step_strain_maps
-from grainmodes.figures.shared.field_rows import at_point, described, jammed
 from grainmodes.figures.shared.grain_maps import Scale
+from grainmodes.figures.shared.grain_rows import field_columns
+from grainmodes.figures.shared.sample_files import jammed_at_point
 from grainmodes.figures.shared.selection import Options
 
 PAPER_N = 128
@@ -17,8 +23,8 @@ TITLES = {"affine": "affine", "nonaffine": "non-affine"}
 
 COLUMNS = {
     **step_strain_maps.COLUMNS,
-    **described("affine", "d", "affine displacement per unit strain"),
-    **described("nonaffine", "d", "non-affine displacement per unit strain; empty: a rattler"),
+    **field_columns("affine", "d", "affine displacement per unit strain"),
+    **field_columns("nonaffine", "d", "non-affine displacement per unit strain; empty: a rattler"),
 }
 
 
@@ -27,15 +33,16 @@ def table(fields: list[Block], options: Options) -> pd.DataFrame:
 
     Raises:
         BlockError: samples are jammed, but none has a simulated field.
-        ValueError: no sample has the n, phi or kt asked for.
+        ValueError: no sample has the requested n, phi or kt.
     """
-    samples = at_point(jammed(fields, "affine_fields", VARIABLES["nonaffine"]), options, PAPER_N)
-    return step_strain_maps.rows(samples, options, VARIABLES, COLUMNS)
+    simulated = VARIABLES["nonaffine"]
+    samples = jammed_at_point(fields, options, "affine_fields", simulated, PAPER_N)
+    return step_strain_maps.step_strain_rows(samples, options, VARIABLES, COLUMNS)
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Two maps, each with arrows on a scale of its own."""
+    """Draw two maps, each with arrows on its own scale."""
     figure.set_size_inches(7.0, 3.9)
     figure.set_layout_engine("compressed")
-    scales = {prefix: Scale.of(table, (prefix,), arrow=1.0) for prefix in VARIABLES}
-    step_strain_maps.draw_pair(figure, table, TITLES, scales)
+    scales = {prefix: Scale.from_fields(table, (prefix,), arrow=1.0) for prefix in VARIABLES}
+    step_strain_maps.draw_two_maps(figure, table, TITLES, scales)

@@ -1,4 +1,7 @@
-"""D(omega), one panel per k_T (A, Fig. 9)."""
+"""The density of states D(ω), A (23), one panel per k_T: A, Fig. 9.
+
+Double logarithmic. Symbols are means over the samples, bars their standard errors.
+"""
 
 from __future__ import annotations
 
@@ -7,25 +10,30 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.figures.shared import appearance, spectral_rows
-from grainmodes.figures.shared.panels import draw_densities
-from grainmodes.figures.shared.selection import Options, panels
-from grainmodes.figures.shared.spectral_points import place_of_densities
+from grainmodes.figures.shared.selection import Options, choose_panels
+from grainmodes.figures.shared.spectral_panels import draw_density_panels
+from grainmodes.figures.shared.spectral_points import choose_density_points
 
 COLUMNS = spectral_rows.BINS | spectral_rows.DENSITY
 
 
 def table(ensemble, options: Options) -> pd.DataFrame:
-    """D in A's bins, with the columns `COLUMNS`."""
-    n, phi, kappas = place_of_densities(ensemble, options)
-    points = [(n, phi, kappa) for kappa in panels(options.kt, kappas)]
-    return spectral_rows.rows(ensemble, options, points)[list(COLUMNS)]
+    """D in A's bins, with the columns `COLUMNS`.
+
+    Raises:
+        BlockError: the ensemble holds no spectra.
+        ValueError: it holds none at the requested n, phi or kt.
+    """
+    chosen = choose_density_points(ensemble, options)
+    points = chosen.at(choose_panels(options.kt, chosen.kt))
+    return spectral_rows.bin_rows(ensemble, options, points)[list(COLUMNS)]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Double logarithmic; a bin without modes has no symbol."""
-    draw_densities(figure, table, _panel)
+    """Draw a panel per k_T."""
+    draw_density_panels(figure, table, _panel)
 
 
-def _panel(axes: Axes, of: pd.DataFrame) -> None:
-    bars = of["density_standard_error"]
-    appearance.draw_cloud(axes, of["omega"], of["density"], bars, appearance.ROTATIONAL, "o")
+def _panel(axes: Axes, bins: pd.DataFrame) -> None:
+    bars = bins["density_standard_error"]
+    appearance.draw_cloud(axes, bins["omega"], bins["density"], bars, appearance.ROTATIONAL, "o")

@@ -1,4 +1,8 @@
-"""D(omega) at a small k_T against grains without friction, both over 3N (A, Fig. 11)."""
+"""The density of states at a small k_T beside that of grains without friction: A, Fig. 11.
+
+Both in the same bins and over 3N. Filled circles: with friction, at the k_T of the legend; open
+triangles: without friction, where grains have no rotations.
+"""
 
 from __future__ import annotations
 
@@ -6,10 +10,10 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from grainmodes.ensemble.spectra import points_with
-from grainmodes.figures.shared import appearance, spectral_rows
-from grainmodes.figures.shared.panels import one_panel
-from grainmodes.figures.shared.selection import Options, positive, weak
-from grainmodes.figures.shared.spectral_points import ANY, place
+from grainmodes.figures.shared import appearance, labels, spectral_rows
+from grainmodes.figures.shared.selection import Options, choose_weak, positive_kts
+from grainmodes.figures.shared.spectral_panels import draw_kinds, one_density_panel
+from grainmodes.figures.shared.spectral_points import SPECTRUM_VARIABLES, choose_points
 
 COLUMNS = (
     spectral_rows.BINS
@@ -20,7 +24,7 @@ COLUMNS = (
 STYLES = {
     "frictional": {"colour": appearance.TRANSLATIONAL, "marker": "o"},
     "frictionless": {"label": "frictionless", "colour": appearance.ROTATIONAL, "marker": "^"}
-    | appearance.OPEN,
+    | appearance.OPEN_SYMBOLS,
 }
 
 
@@ -28,24 +32,26 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     """D of both in the same bins, with the columns `COLUMNS`.
 
     Raises:
-        ValueError: no N and phi have spectra both with and without friction.
+        BlockError: the ensemble holds no spectra.
+        ValueError: no N and phi have spectra both with and without friction, or not at the
+            requested n, phi or kt.
     """
-    present = points_with(ensemble, *ANY)
+    present = points_with(ensemble, *SPECTRUM_VARIABLES)
     present &= present.where(present["kt"] == 0, False).any("kt")
     if not (present & (present["kt"] > 0)).any():
         raise ValueError("figure dos_frictionless: no N and phi have spectra at k_T = 0 and above")
-    n, phi, kappas = place(options, present)
-    kappa = weak(options.kt, positive(kappas, "dos_frictionless"))
-    kinds = {"frictional": ((n, phi, kappa), ""), "frictionless": ((n, phi, 0.0), "")}
-    return spectral_rows.compared(ensemble, options, kinds)[list(COLUMNS)]
+    n, phi, kts = choose_points(options, present)
+    kt = choose_weak(options.one_kt(), positive_kts(kts, "dos_frictionless"))
+    kinds = {"frictional": ((n, phi, kt), ""), "frictionless": ((n, phi, 0.0), "")}
+    return spectral_rows.compare_spectra(ensemble, options, kinds)[list(COLUMNS)]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Double logarithmic; a bin without modes has no symbol."""
+    """Draw both in one panel, double logarithmic."""
     filled = table[table["modes"] > 0]
-    label = f"$k_T / k_N = {appearance.power(table['kt'].max())}$"
+    label = f"$k_T / k_N = {labels.power(table['kt'].max())}$"
     styles = STYLES | {"frictional": STYLES["frictional"] | {"label": label}}
-    axes = one_panel(figure, filled)
-    appearance.draw_kinds(axes, filled, "density", styles)
+    axes = one_density_panel(figure, filled)
+    draw_kinds(axes, filled, "density", styles)
     axes.legend()
-    appearance.write_caption(figure, table, ("n", "phi"))
+    labels.write_caption(figure, table, ("n", "phi"))

@@ -1,20 +1,24 @@
-"""D(omega) of the Jacobian and of the effective Hessian, one panel per k_T (A, Fig. 12, App. H).
+"""The density of states of the Jacobian and of the effective Hessian: A, Fig. 12 and App. H.
 
-The Hessian with the tangent stiffnesses of the contact law is the Jacobian where every s = 0. With
-the constants k_N and k_T printed in A (H2) it is so for harmonic contacts only.
+One panel per k_T. The Hessian with the tangent stiffnesses of the contact law equals the Jacobian
+where every s = 0. The Hessian with the constants k_N and k_T printed in A (H2) equals it for
+harmonic contacts only.
 """
 
 from __future__ import annotations
 
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.ensemble.spectra import binned_spectrum, points_with, spectrum
 from grainmodes.figures.shared import appearance, spectral_rows
-from grainmodes.figures.shared.panels import draw_densities
-from grainmodes.figures.shared.selection import Options, panels, positive
-from grainmodes.figures.shared.spectral_points import ANY, place
+from grainmodes.figures.shared.selection import Options, choose_panels, positive_kts
+from grainmodes.figures.shared.spectral_panels import draw_density_kinds
+from grainmodes.figures.shared.spectral_points import (
+    SPECTRUM_VARIABLES,
+    Coordinates,
+    choose_points,
+)
 
 COLUMNS = (
     spectral_rows.BINS
@@ -22,6 +26,8 @@ COLUMNS = (
     | {"kind": ("-", "jacobian; hessian: tangent stiffnesses; printed: constants of A (H2)")}
 )
 HESSIANS = {"hessian": "_hessian", "printed": "_hessian_printed"}
+"""Kind → ending of the names in the ensemble."""
+
 STYLES = {
     "jacobian": {"label": "$J$", "colour": appearance.ROTATIONAL, "marker": "o"},
     "hessian": {
@@ -29,7 +35,7 @@ STYLES = {
         "colour": appearance.TRANSLATIONAL,
         "marker": "s",
     }
-    | appearance.OPEN,
+    | appearance.OPEN_SYMBOLS,
     "printed": {"label": "$H$, as printed", "colour": "0.55", "marker": "^"},
 }
 
@@ -39,28 +45,24 @@ def table(ensemble, options: Options) -> pd.DataFrame:
 
     Raises:
         BlockError: the study computed no Hessian.
-        ValueError: the ensemble has no k_T > 0.
+        ValueError: the ensemble has no k_T > 0, or no spectra at the requested n, phi or kt.
     """
-    present = points_with(ensemble, "bin_count_hessian") & points_with(ensemble, *ANY)
-    n, phi, found = place(options, present)
-    kappas = panels(options.kt, positive(found, "dos_hessian"))
-    return spectral_rows.stacked([_panel_rows(ensemble, (n, phi, kappa)) for kappa in kappas])[
-        list(COLUMNS)
-    ]
+    present = points_with(ensemble, "bin_count_hessian")
+    present &= points_with(ensemble, *SPECTRUM_VARIABLES)
+    chosen = choose_points(options, present)
+    kts = choose_panels(options.kt, positive_kts(chosen.kt, "dos_hessian"))
+    parts = [_rows_at(ensemble, point) for point in chosen.at(kts)]
+    return spectral_rows.stack(parts)[list(COLUMNS)]
 
 
-def _panel_rows(ensemble, point: spectral_rows.Point) -> pd.DataFrame:
+def _rows_at(ensemble, point: Coordinates) -> pd.DataFrame:
     bins = {kind: binned_spectrum(ensemble, *point, ending) for kind, ending in HESSIANS.items()}
     bins["jacobian"] = spectrum(ensemble, *point).in_bins(bins["hessian"].edges)
-    return spectral_rows.stacked(
-        [spectral_rows.of_bins(of, point, kind) for kind, of in bins.items()]
+    return spectral_rows.stack(
+        [spectral_rows.rows_of_bins(modes, point, kind) for kind, modes in bins.items()]
     )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Double logarithmic; a bin without modes has no symbol."""
-    draw_densities(figure, table, _panel)[0].legend()
-
-
-def _panel(axes: Axes, of: pd.DataFrame) -> None:
-    appearance.draw_kinds(axes, of, "density", STYLES)
+    """Draw a panel per k_T, double logarithmic."""
+    draw_density_kinds(figure, table, STYLES)

@@ -1,33 +1,34 @@
-"""D(omega) for several N at one small k_T (A, Fig. 15)."""
+"""The density of states for several N at one small k_T: A, Fig. 15.
+
+Double logarithmic, a colour per N; the φ is the one at which most N have spectra.
+"""
 
 from __future__ import annotations
 
 import pandas as pd
 from matplotlib.figure import Figure
 
-from grainmodes.figures.shared import appearance, spectral_rows
-from grainmodes.figures.shared.panels import draw_curves
-from grainmodes.figures.shared.selection import Options, curves
-from grainmodes.figures.shared.spectral_points import line, weakly_frictional
+from grainmodes.figures.shared import labels, spectral_rows
+from grainmodes.figures.shared.selection import Options
+from grainmodes.figures.shared.spectral_panels import draw_density_curves
+from grainmodes.figures.shared.spectral_points import weak_points_along
 
 COLUMNS = spectral_rows.BINS | spectral_rows.DENSITY
 
 
 def table(ensemble, options: Options) -> pd.DataFrame:
-    """D in A's bins for every N at the φ with most N, with the columns `COLUMNS`.
+    """D in A's bins for every N at one φ, with the columns `COLUMNS`.
 
     Raises:
-        ValueError: the ensemble has no k_T > 0.
+        BlockError: the ensemble holds no spectra.
+        ValueError: it holds none with k_T > 0, or none at the requested n, phi or kt.
     """
-    present, kappa = weakly_frictional(ensemble, options, "dos_n")
-    phi, ns = line("phi", options.phi, present)
-    asked = None if options.n is None else (options.n,)
-    points = [(n, phi, kappa) for n in curves(asked, ns, "n")]
-    return spectral_rows.rows(ensemble, options, points)[list(COLUMNS)]
+    points = weak_points_along("n", ensemble, options, "dos_n")
+    return spectral_rows.bin_rows(ensemble, options, points)[list(COLUMNS)]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Double logarithmic; a bin without modes has no symbol."""
-    axes = draw_curves(figure, table, "n", "{:.0f}".format)
+    """Draw a curve per N."""
+    axes = draw_density_curves(figure, table, "n", "{:.0f}".format)
     axes.legend(title="$N$")
-    appearance.write_caption(figure, table, ("phi", "kt"))
+    labels.write_caption(figure, table, ("phi", "kt"))

@@ -1,33 +1,34 @@
-"""D(omega) for several phi at one small k_T, towards jamming (A, Fig. 16)."""
+"""The density of states for several φ at one small k_T, towards jamming: A, Fig. 16.
+
+Double logarithmic, a colour per φ; the N is the one of which most φ have spectra.
+"""
 
 from __future__ import annotations
 
 import pandas as pd
 from matplotlib.figure import Figure
 
-from grainmodes.figures.shared import appearance, spectral_rows
-from grainmodes.figures.shared.panels import draw_curves
-from grainmodes.figures.shared.selection import Options, curves
-from grainmodes.figures.shared.spectral_points import line, weakly_frictional
+from grainmodes.figures.shared import labels, spectral_rows
+from grainmodes.figures.shared.selection import Options
+from grainmodes.figures.shared.spectral_panels import draw_density_curves
+from grainmodes.figures.shared.spectral_points import weak_points_along
 
 COLUMNS = spectral_rows.BINS | spectral_rows.DENSITY
 
 
 def table(ensemble, options: Options) -> pd.DataFrame:
-    """D in A's bins for every phi of the N with most phi, with the columns `COLUMNS`.
+    """D in A's bins for every φ of one N, with the columns `COLUMNS`.
 
     Raises:
-        ValueError: the ensemble has no k_T > 0.
+        BlockError: the ensemble holds no spectra.
+        ValueError: it holds none with k_T > 0, or none at the requested n, phi or kt.
     """
-    present, kappa = weakly_frictional(ensemble, options, "dos_phi")
-    n, phis = line("n", options.n, present)
-    asked = None if options.phi is None else (options.phi,)
-    points = [(n, phi, kappa) for phi in curves(asked, phis, "phi")]
-    return spectral_rows.rows(ensemble, options, points)[list(COLUMNS)]
+    points = weak_points_along("phi", ensemble, options, "dos_phi")
+    return spectral_rows.bin_rows(ensemble, options, points)[list(COLUMNS)]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Double logarithmic; a bin without modes has no symbol."""
-    axes = draw_curves(figure, table, "phi", appearance.fraction)
+    """Draw a curve per φ."""
+    axes = draw_density_curves(figure, table, "phi", labels.fraction)
     axes.legend(title=r"$\phi$")
-    appearance.write_caption(figure, table, ("n", "kt"))
+    labels.write_caption(figure, table, ("n", "kt"))

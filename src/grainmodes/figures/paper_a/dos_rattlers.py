@@ -1,16 +1,24 @@
-"""D(omega) with and without rattlers, one panel per k_T (A, Fig. 13)."""
+"""The density of states with and without rattlers, one panel per k_T: A, Fig. 13.
+
+Both in the same bins. Filled triangles: without rattlers; open circles: with rattlers, each of
+which adds modes near zero.
+"""
 
 from __future__ import annotations
 
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.ensemble.spectra import points_with
 from grainmodes.figures.shared import appearance, spectral_rows
-from grainmodes.figures.shared.panels import draw_densities
-from grainmodes.figures.shared.selection import PAPER_RATTLERS, Options, panels, positive
-from grainmodes.figures.shared.spectral_points import place
+from grainmodes.figures.shared.selection import (
+    PAPER_RATTLER_KTS,
+    Options,
+    choose_panels,
+    positive_kts,
+)
+from grainmodes.figures.shared.spectral_panels import draw_density_kinds
+from grainmodes.figures.shared.spectral_points import choose_points
 
 COLUMNS = (
     spectral_rows.BINS
@@ -20,7 +28,7 @@ COLUMNS = (
 STYLES = {
     "without": {"label": "without rattlers", "colour": appearance.ROTATIONAL, "marker": "^"},
     "with": {"label": "with rattlers", "colour": appearance.TRANSLATIONAL, "marker": "o"}
-    | appearance.OPEN,
+    | appearance.OPEN_SYMBOLS,
 }
 
 
@@ -29,21 +37,17 @@ def table(ensemble, options: Options) -> pd.DataFrame:
 
     Raises:
         BlockError: the study kept no rattlers.
-        ValueError: the ensemble has no k_T > 0.
+        ValueError: the ensemble has no k_T > 0, or no spectra at the requested n, phi or kt.
     """
-    n, phi, found = place(options, points_with(ensemble, "eigenvalue_rattlers"))
+    chosen = choose_points(options, points_with(ensemble, "eigenvalue_rattlers"))
+    kts = choose_panels(options.kt, positive_kts(chosen.kt, "dos_rattlers"), PAPER_RATTLER_KTS)
     parts = []
-    for kappa in panels(options.kt, positive(found, "dos_rattlers"), PAPER_RATTLERS):
-        point = (n, phi, kappa)
+    for point in chosen.at(kts):
         kinds = {"with": (point, "_rattlers"), "without": (point, "")}
-        parts.append(spectral_rows.compared(ensemble, options, kinds))
-    return spectral_rows.stacked(parts)[list(COLUMNS)]
+        parts.append(spectral_rows.compare_spectra(ensemble, options, kinds))
+    return spectral_rows.stack(parts)[list(COLUMNS)]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Double logarithmic; a bin without modes has no symbol."""
-    draw_densities(figure, table, _panel)[0].legend()
-
-
-def _panel(axes: Axes, of: pd.DataFrame) -> None:
-    appearance.draw_kinds(axes, of, "density", STYLES)
+    """Draw a panel per k_T, double logarithmic."""
+    draw_density_kinds(figure, table, STYLES)

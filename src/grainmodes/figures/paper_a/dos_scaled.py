@@ -1,4 +1,7 @@
-"""omega_R D against omega / omega_R, omega_R t_0 = (k_T / k_N)^(1/2) (A, Fig. 10)."""
+"""The density of states scaled by ω_R t_0 = (k_T / k_N)^(1/2): A, Fig. 10.
+
+ω_R D against ω / ω_R, double logarithmic, a colour per k_T; small k_T lie on top.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +9,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from grainmodes.figures.shared import appearance, spectral_rows
-from grainmodes.figures.shared.selection import Options, curves, positive
-from grainmodes.figures.shared.spectral_points import place_of_densities
+from grainmodes.figures.shared import appearance, labels, spectral_rows
+from grainmodes.figures.shared.selection import Options, choose_curves, positive_kts
+from grainmodes.figures.shared.spectral_points import choose_density_points
 
 COLUMNS = (
     spectral_rows.BINS
@@ -19,37 +22,38 @@ COLUMNS = (
         "scaled_density_standard_error": ("1", "standard error of omega_R D"),
     }
 )
-SHOWN = (0.1, 10.0)
+SCALED_RANGE = (0.1, 10.0)
 """Range of omega / omega_R of A, Fig. 10."""
 
 
 def table(ensemble, options: Options) -> pd.DataFrame:
-    """The scaled density of states within `SHOWN`, with the columns `COLUMNS`.
+    """The scaled density of states within `SCALED_RANGE`, with the columns `COLUMNS`.
 
     Raises:
-        ValueError: the ensemble has no k_T > 0.
+        BlockError: the ensemble holds no spectra.
+        ValueError: it has no k_T > 0, or no spectra at the requested n, phi or kt.
     """
-    n, phi, present = place_of_densities(ensemble, options)
-    kappas = curves(options.kt, positive(present, "dos_scaled"), "kt")
-    found = spectral_rows.rows(ensemble, options, [(n, phi, kappa) for kappa in kappas])
-    rotational = np.sqrt(found["kt"])
-    found["scaled_omega"] = found["omega"] / rotational
-    found["scaled_density"] = found["density"] * rotational
-    found["scaled_density_standard_error"] = found["density_standard_error"] * rotational
-    return found[found["scaled_omega"].between(*SHOWN)][list(COLUMNS)]
+    chosen = choose_density_points(ensemble, options)
+    kts = choose_curves(options.kt, positive_kts(chosen.kt, "dos_scaled"), "kt")
+    rows = spectral_rows.bin_rows(ensemble, options, chosen.at(kts))
+    omega_r = np.sqrt(rows["kt"])
+    rows["scaled_omega"] = rows["omega"] / omega_r
+    rows["scaled_density"] = rows["density"] * omega_r
+    rows["scaled_density_standard_error"] = rows["density_standard_error"] * omega_r
+    return rows[rows["scaled_omega"].between(*SCALED_RANGE)][list(COLUMNS)]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Double logarithmic; a bin without modes has no symbol; small k_T lie on top."""
+    """Draw all curves in one panel."""
     axes = figure.subplots()
     filled = table[table["modes"] > 0]
-    for kappa, colour, marker in appearance.series(sorted(filled["kt"].unique())):
-        of = filled[filled["kt"] == kappa]
-        curve = (of[f"scaled_{name}"] for name in ("omega", "density", "density_standard_error"))
-        appearance.draw_cloud(axes, *curve, colour, marker, zorder=3 - kappa / 100)
-        appearance.add_to_legend(axes, f"${appearance.power(kappa)}$", colour, marker)
+    for kt, colour, marker in appearance.curve_styles(sorted(filled["kt"].unique())):
+        bins = filled[filled["kt"] == kt]
+        curve = (bins[f"scaled_{name}"] for name in ("omega", "density", "density_standard_error"))
+        appearance.draw_cloud(axes, *curve, colour, marker, zorder=3 - kt / 100)
+        appearance.add_to_legend(axes, f"${labels.power(kt)}$", colour, marker)
     limits = appearance.logarithmic_limits(filled["scaled_density"])
-    axes.set(xscale="log", yscale="log", xlim=SHOWN, ylim=limits)
+    axes.set(xscale="log", yscale="log", xlim=SCALED_RANGE, ylim=limits)
     axes.set(xlabel=r"$\omega / \omega_R$", ylabel=r"$\omega_R D(\omega / \omega_R)$")
     axes.legend(title="$k_T / k_N$", ncols=2)
-    appearance.write_caption(figure, table, ("n", "phi"))
+    labels.write_caption(figure, table, ("n", "phi"))

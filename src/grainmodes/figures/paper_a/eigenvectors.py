@@ -1,10 +1,16 @@
-"""Single eigenvectors: arrows for (x, y), colours for ℓ; a row of maps per k_T (A, Fig. 7).
+"""Single eigenvectors of the Jacobian as maps, a row of maps per k_T: A, Fig. 7.
 
-A's caption and text exchange ω t_0 = 1e-4 and 1e-2 between the two k_T. The rotational band lies at
-ω_R t_0 = (k_T/k_N)^(1/2): 1e-4 belongs to k_T/k_N = 1e-8 and 1e-2 to 1e-4, as the caption has it.
+Arrows are the components (x, y) of a mode, colours its rotation ℓ, all maps on one scale: a mode
+without rotation is pale, a mode without translation has no arrows.
+
+The caption and the text of A exchange ω t_0 = 1e-4 and 1e-2 between the two k_T. The rotational
+band lies at ω_R t_0 = (k_T/k_N)^(1/2), so that 1e-4 belongs to k_T/k_N = 1e-8 and 1e-2 to 1e-4, as
+the caption has it.
 """
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import numpy as np
 import pandas as pd
@@ -12,34 +18,27 @@ from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
 
 from grainmodes.dataset.files import Block
-from grainmodes.figures.shared import appearance
-from grainmodes.figures.shared.field_rows import (
-    GRAINS,
-    at_point,
-    components,
-    described,
-    grains,
-    jammed,
-    joined,
-)
+from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.grain_maps import (
     Scale,
     add_colour_bar,
     add_key,
     draw_map,
-    write_caption,
+    write_map_caption,
 )
-from grainmodes.figures.shared.selection import Options, curves, positive
+from grainmodes.figures.shared.grain_rows import GRAINS, field_columns, field_values, grain_rows
+from grainmodes.figures.shared.sample_files import jammed_at_point, joined
+from grainmodes.figures.shared.selection import Options, choose_curves, positive_kts
 
 PAPER_N = 4096
-PAPER_KT = (1e-8, 1e-4)
+PAPER_KTS = (1e-8, 1e-4)
 
 COLUMNS = {
     **GRAINS,
     "omega_asked": ("1/t_0", "frequency near which a mode was sought"),
     "omega": ("1/t_0", "frequency of the mode"),
     "psi_rotational": ("1", "its rotational fraction psi^R"),
-    **described("mode", "1", "its eigenvector of norm 1, times N^(1/2); empty: a rattler"),
+    **field_columns("mode", "1", "its eigenvector of norm 1, times N^(1/2); empty: a rattler"),
 }
 
 
@@ -48,70 +47,68 @@ def table(fields: list[Block], options: Options) -> pd.DataFrame:
 
     Raises:
         BlockError: samples are jammed, but none has eigenvectors.
-        ValueError: no sample has the n, phi or kt asked for, or none a kt above 0.
+        ValueError: no sample has the requested n, phi or kt, or none a kt above 0.
     """
-    samples = at_point(jammed(fields, "eigenvectors", "eigenvector"), options, PAPER_N)
-    shown = _kts(samples, options) if samples else []
-    chosen = sorted(
-        (block for block in samples if block.attributes["kt"] in shown),
+    samples = jammed_at_point(fields, options, "eigenvectors", "eigenvector", PAPER_N)
+    kts = _choose_kts(samples, options) if samples else []
+    shown = sorted(
+        (block for block in samples if block.attributes["kt"] in kts),
         key=lambda block: block.attributes["kt"],
     )
-    return joined((rows for block in chosen for rows in _modes(block)), COLUMNS)
+    return joined((rows for block in shown for rows in _rows_of_modes(block)), COLUMNS)
 
 
-def _kts(samples: list[Block], options: Options) -> list[float]:
-    """Those asked for, else A's, else up to two."""
-    values = positive(np.unique([block.attributes["kt"] for block in samples]), "eigenvectors")
-    paper = [kt for kt in PAPER_KT if kt in values]
+def _choose_kts(samples: list[Block], options: Options) -> list[float]:
+    """The requested k_T, else A's, else up to two."""
+    values = np.unique([block.attributes["kt"] for block in samples])
+    values = positive_kts(values, "eigenvectors")
     if options.kt is not None:
-        return curves(options.kt, values, "kt")
-    return paper or list(values[: len(PAPER_KT)])
+        return choose_curves(options.kt, values, "kt")
+    paper = [kt for kt in PAPER_KTS if kt in values]
+    return paper or list(values[: len(PAPER_KTS)])
 
 
-def _modes(block: Block):
-    sample = {name: array[0] for name, array in block.variables.items()}
-    named = zip(
-        sample["frequency_asked"], sample["frequency_found"], sample["eigenvector"], strict=True
-    )
-    for asked, found, vector in named:
+def _rows_of_modes(block: Block) -> Iterator[pd.DataFrame]:
+    names = ("frequency_asked", "frequency_found", "eigenvector")
+    modes = zip(*(block.variables[name][0] for name in names), strict=True)
+    for requested, found, vector in modes:
         psi = np.nansum(vector[:, 2] ** 2)
-        scaled = components("mode", vector * np.sqrt(len(vector)))
-        yield grains(block).assign(omega_asked=asked, omega=found, psi_rotational=psi, **scaled)
+        scaled = field_values("mode", vector * np.sqrt(len(vector)))
+        yield grain_rows(block).assign(
+            omega_asked=requested, omega=found, psi_rotational=psi, **scaled
+        )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """All maps on one scale: without rotation a mode is pale, without motion it has no arrows."""
+    """Draw a row of maps per k_T."""
     kts = sorted(table["kt"].unique())
     columns = table.groupby("kt")["omega_asked"].nunique().max()
     figure.set_size_inches(7.0, 1.3 + 2.65 * len(kts))
     figure.set_layout_engine("compressed")
     grid = figure.subplots(len(kts), columns, squeeze=False, sharex=True, sharey=True)
-    scale = Scale.of(table, ("mode",), arrow=1.2)
-    for letter, kt, line in zip("abcdefgh", kts, grid, strict=False):
-        arrows = _line(letter, line, table[table["kt"] == kt], scale)
-        line[0].set_ylabel(f"$k_T / k_N = {appearance.power(kt)}$\n$y/d$")
-    add_key(line[0], arrows, scale, "")
+    scale = Scale.from_fields(table, ("mode",), arrow=1.2)
+    for letter, kt, panels in zip("abcdefgh", kts, grid, strict=False):
+        arrows = _row_of_maps(letter, panels, table[table["kt"] == kt], scale)
+        panels[0].set_ylabel(f"$k_T / k_N = {labels.power(kt)}$\n$y/d$")
+    add_key(panels[0], arrows, scale, "")
     label = r"rotation $N^{1/2} R^{\ell}_{n,i}$"
     add_colour_bar(figure, list(grid.ravel()), scale, label, orientation="horizontal", aspect=50)
-    write_caption(figure, table, r"arrows: $N^{1/2} (R^x_{n,i}, R^y_{n,i})$")
+    write_map_caption(figure, table, r"arrows: $N^{1/2} (R^x_{n,i}, R^y_{n,i})$")
 
 
-def _line(letter: str, line: np.ndarray, of: pd.DataFrame, scale: Scale) -> Quiver:
-    """The modes of one k_T, ascending in frequency; returns the arrows of the last."""
-    modes = [mode for _, mode in of.groupby("omega_asked")]
-    for axes in line[len(modes) :]:
+def _row_of_maps(letter: str, panels: np.ndarray, rows: pd.DataFrame, scale: Scale) -> Quiver:
+    """Draw the modes of one k_T, ascending in frequency; returns the arrows of the last."""
+    modes = [mode for _, mode in rows.groupby("omega_asked")]
+    for axes in panels[len(modes) :]:
         axes.set_visible(False)
-    for number, (axes, mode) in enumerate(zip(line, modes, strict=False), start=1):
+    for number, (axes, mode) in enumerate(zip(panels, modes, strict=False), start=1):
         arrows = draw_map(axes, mode, "mode", scale)
-        axes.set_title(f"({letter}{number}) {_name(mode)}")
+        axes.set_title(f"({letter}{number}) {_title(mode)}")
         axes.label_outer()
     return arrows
 
 
-def _name(mode: pd.DataFrame) -> str:
+def _title(mode: pd.DataFrame) -> str:
     """ω and ψ^R of a mode, to two digits."""
-    omega, psi = (
-        appearance.power(float(f"{mode[column].iloc[0]:.2g}"))
-        for column in ("omega", "psi_rotational")
-    )
+    omega, psi = (labels.power(mode[name].iloc[0], 2) for name in ("omega", "psi_rotational"))
     return rf"$\omega t_0 = {omega}$" + "\n" + rf"$\psi^R = {psi}$"

@@ -1,4 +1,8 @@
-"""G against k_T for several phi: simulation, and theory as a line (A, Fig. 5)."""
+"""The rigidity G against k_T for several φ: A, Fig. 5.
+
+Symbols: simulated step strain, or linear response where the study has no step strain, with standard
+errors; lines: linear response; dashed lines: k_T = 0. The axis of k_T is logarithmic.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +10,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grainmodes.figures.shared import appearance
-from grainmodes.figures.shared.rigidity_rows import COLUMNS, rows
-from grainmodes.figures.shared.selection import Options, curves, positive
+from grainmodes.figures.shared import appearance, labels
+from grainmodes.figures.shared.rigidity_rows import COLUMNS, rigidity_rows
+from grainmodes.figures.shared.selection import Options, choose_curves, positive_kts
 
 __all__ = ["COLUMNS", "draw", "table"]
 
@@ -19,24 +23,24 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     """G and its standard error, with the columns `COLUMNS`.
 
     Raises:
-        ValueError: the ensemble has no k_T > 0.
+        ValueError: the ensemble has no k_T > 0, or lacks the requested n or phi.
     """
-    positive(ensemble["kt"].to_numpy(), "g_kt")
-    found = rows(ensemble, KINDS, options.n)
-    asked = None if options.phi is None else (options.phi,)
-    return found[found["phi"].isin(curves(asked, ensemble["phi"].to_numpy(), "phi"))]
+    positive_kts(ensemble["kt"].to_numpy(), "g_kt")
+    rows = rigidity_rows(ensemble, KINDS, options.n)
+    requested = None if options.phi is None else (options.phi,)
+    return rows[rows["phi"].isin(choose_curves(requested, ensemble["phi"].to_numpy(), "phi"))]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Symbols: simulation (theory where there is none); lines: theory; dashes: k_T = 0."""
+    """Draw a curve per φ."""
     axes = figure.subplots()
     phis = sorted(table["phi"].unique())
-    for phi, colour, marker in list(appearance.series(phis))[::-1]:
+    for phi, colour, marker in list(appearance.curve_styles(phis))[::-1]:
         _curve(axes, table[table["phi"] == phi], colour, marker)
-        appearance.add_to_legend(axes, appearance.fraction(phi), colour, marker)
-    axes.set(xscale="log", xlabel="$k_T / k_N$", ylabel=appearance.modulus_label("$G$", table))
+        appearance.add_to_legend(axes, labels.fraction(phi), colour, marker)
+    axes.set(xscale="log", xlabel="$k_T / k_N$", ylabel=labels.modulus_label("$G$", table))
     axes.legend(title=r"$\phi$", loc="upper left", ncols=2)
-    appearance.write_caption(figure, table, note=_note(table))
+    labels.write_caption(figure, table, note=_note(table))
 
 
 def _note(table: pd.DataFrame) -> str:
@@ -46,8 +50,8 @@ def _note(table: pd.DataFrame) -> str:
     return ", ".join(parts)
 
 
-def _curve(axes: Axes, of: pd.DataFrame, colour, marker: str) -> None:
-    theory, simulation = of[of["kind"] == "theory"], of[of["kind"] == "simulation"]
+def _curve(axes: Axes, rows: pd.DataFrame, colour, marker: str) -> None:
+    theory, simulation = rows[rows["kind"] == "theory"], rows[rows["kind"] == "simulation"]
     for frictionless in theory.loc[theory["kt"] == 0, "rigidity"]:
         axes.axhline(frictionless, color=colour, linestyle="--", linewidth=0.6)
     theory, simulation = theory[theory["kt"] > 0], simulation[simulation["kt"] > 0]

@@ -1,6 +1,8 @@
-"""The non-affine field of one sample: mode sum, simulation, and component by component (A, Fig. 3).
+"""The non-affine field of one sample by the sum over the modes and by simulation: A, Fig. 3.
 
-The components stand in the order of A (33): x, y and ℓ of one grain, then of the next.
+(a), (b): maps of both on one scale, arrows per unit strain, colours rotations. (c): all components
+in the order of A (33), which is x, y and ℓ of one grain, then of the next; open circles: sum over
+the modes, dots within them: simulation; below, the absolute difference of the two.
 """
 
 from __future__ import annotations
@@ -11,9 +13,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
-from grainmodes.figures.shared import appearance, step_strain_maps
-from grainmodes.figures.shared.field_rows import COMPONENTS, at_point, described, jammed
+from grainmodes.figures.shared import appearance, labels, step_strain_maps
 from grainmodes.figures.shared.grain_maps import Scale
+from grainmodes.figures.shared.grain_rows import COMPONENTS, field_columns
+from grainmodes.figures.shared.sample_files import jammed_at_point
 from grainmodes.figures.shared.selection import Options
 
 PAPER_N = 1024
@@ -22,8 +25,8 @@ TITLES = {"theory": "sum over the modes", "simulation": "simulation"}
 
 COLUMNS = {
     **step_strain_maps.COLUMNS,
-    **described("theory", "d", "non-affine displacement per unit strain from the modes"),
-    **described("simulation", "d", "the same from the relaxed step strains; empty: a rattler"),
+    **field_columns("theory", "d", "non-affine displacement per unit strain from the modes"),
+    **field_columns("simulation", "d", "the same from the relaxed step strains; empty: a rattler"),
 }
 
 
@@ -32,22 +35,23 @@ def table(fields: list[Block], options: Options) -> pd.DataFrame:
 
     Raises:
         BlockError: samples are jammed, but none has a field from the modes.
-        ValueError: no sample has the n, phi or kt asked for.
+        ValueError: no sample has the requested n, phi or kt.
     """
-    samples = at_point(jammed(fields, "nonaffine_field", VARIABLES["theory"]), options, PAPER_N)
-    return step_strain_maps.rows(samples, options, VARIABLES, COLUMNS)
+    theory = VARIABLES["theory"]
+    samples = jammed_at_point(fields, options, "nonaffine_field", theory, PAPER_N)
+    return step_strain_maps.step_strain_rows(samples, options, VARIABLES, COLUMNS)
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """(a), (b): maps on one scale; (c): every component; below it, what the two differ by."""
+    """Draw the maps, and below them the components with their differences."""
     figure.set_size_inches(7.0, 6.4)
     maps, lines = figure.subfigures(2, 1, height_ratios=(3.6, 2.8))
-    scale = Scale.of(table, tuple(VARIABLES), arrow=1.3)
-    step_strain_maps.draw_pair(maps, table, TITLES, dict.fromkeys(VARIABLES, scale))
+    scale = Scale.from_fields(table, tuple(VARIABLES), arrow=1.3)
+    step_strain_maps.draw_two_maps(maps, table, TITLES, dict.fromkeys(VARIABLES, scale))
     above, below = lines.subplots(2, 1, sharex=True, height_ratios=(3, 1.4))
-    _components(above, below, *(_in_order(table, prefix) for prefix in VARIABLES))
+    _draw_components(above, below, *(_in_order(table, prefix) for prefix in VARIABLES))
     lines.align_ylabels()
-    appearance.name_panel(above, 2, "component by component")
+    labels.name_panel(above, 2, "component by component")
 
 
 def _in_order(table: pd.DataFrame, prefix: str) -> np.ndarray:
@@ -55,8 +59,7 @@ def _in_order(table: pd.DataFrame, prefix: str) -> np.ndarray:
     return table[[f"{prefix}_{name}" for name in COMPONENTS]].to_numpy().ravel()
 
 
-def _components(above: Axes, below: Axes, theory: np.ndarray, simulation: np.ndarray) -> None:
-    """Open circles: theory; dots within them: simulation; logarithmic: their difference."""
+def _draw_components(above: Axes, below: Axes, theory: np.ndarray, simulation: np.ndarray) -> None:
     rank = np.arange(len(theory))
     open_circles = {"ms": 3.6, "mew": 0.4, "fillstyle": "none", "color": appearance.ROTATIONAL}
     dots = {"ms": 1.8, "mew": 0.0, "rasterized": True}

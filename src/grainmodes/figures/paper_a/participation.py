@@ -1,4 +1,8 @@
-"""psi^T and psi^R against omega, one panel per k_T (A, Fig. 8)."""
+"""Translational and rotational fractions ψ^T and ψ^R of the modes, A (51) and (52): A, Fig. 8.
+
+One panel per k_T, against ω. Squares: ψ^T; circles: ψ^R, with standard errors. A bin without modes
+has neither, where A plots 0.
+"""
 
 from __future__ import annotations
 
@@ -8,28 +12,27 @@ from matplotlib.figure import Figure
 
 from grainmodes.ensemble.spectra import points_with
 from grainmodes.figures.shared import appearance, spectral_rows
-from grainmodes.figures.shared.panels import draw_panels
-from grainmodes.figures.shared.selection import Options, panels, positive
-from grainmodes.figures.shared.spectral_points import MODES, place
+from grainmodes.figures.shared.selection import Options, choose_panels, positive_kts
+from grainmodes.figures.shared.spectral_panels import draw_panels
+from grainmodes.figures.shared.spectral_points import MODE_VARIABLES, choose_points
 
 COLUMNS = spectral_rows.BINS | spectral_rows.FRACTION
 
 
 def table(ensemble, options: Options) -> pd.DataFrame:
-    """psi^T and psi^R in A's bins, with the columns `COLUMNS`.
+    """ψ^T and ψ^R in A's bins, with the columns `COLUMNS`.
 
     Raises:
-        ValueError: the ensemble has no k_T > 0.
         BlockError: the study computed no eigenvectors.
+        ValueError: the ensemble has no k_T > 0, or no modes at the requested n, phi or kt.
     """
-    n, phi, found = place(options, points_with(ensemble, *MODES))
-    kappas = panels(options.kt, positive(found, "participation"))
-    points = [(n, phi, kappa) for kappa in kappas]
-    return spectral_rows.rows(ensemble, options, points)[list(COLUMNS)]
+    chosen = choose_points(options, points_with(ensemble, *MODE_VARIABLES))
+    kts = choose_panels(options.kt, positive_kts(chosen.kt, "participation"))
+    return spectral_rows.bin_rows(ensemble, options, chosen.at(kts))[list(COLUMNS)]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Squares: psi^T; circles: psi^R; a bin without modes has neither (A plots 0 there)."""
+    """Draw a panel per k_T."""
     filled = table[table["modes"] > 0]
     panels = draw_panels(figure, filled, r"$\psi^T,\ \psi^R$", _panel)
     for axes in panels:
@@ -37,11 +40,11 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     panels[0].legend()
 
 
-def _panel(axes: Axes, of: pd.DataFrame) -> None:
+def _panel(axes: Axes, bins: pd.DataFrame) -> None:
     for column, marker, colour, label in (
         ("psi_translational", "s", appearance.TRANSLATIONAL, r"$\psi^T$"),
         ("psi_rotational", "o", appearance.ROTATIONAL, r"$\psi^R$"),
     ):
-        bars = of["psi_standard_error"]
-        appearance.draw_cloud(axes, of["omega"], of[column], bars, colour, marker)
+        bars = bins["psi_standard_error"]
+        appearance.draw_cloud(axes, bins["omega"], bins[column], bars, colour, marker)
         appearance.add_to_legend(axes, label, colour, marker)

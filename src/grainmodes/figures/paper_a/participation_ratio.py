@@ -1,7 +1,8 @@
-"""The participation ratio p(omega), one panel per k_T (A, Fig. 14).
+"""The participation ratio p(ω) of the modes, A (E2), one panel per k_T: A, Fig. 14.
 
-With rattlers kept where the study has such spectra, as in A: a mode of one grain has p = 1/N, the
-line of the figure.
+Double logarithmic, with standard errors. Rattlers are kept, as in A, where the study has such
+spectra: a mode of one grain has p = 1/N, the dashed line. A bin without modes has no symbol, where
+A plots 0.
 """
 
 from __future__ import annotations
@@ -12,9 +13,14 @@ from matplotlib.figure import Figure
 
 from grainmodes.ensemble.spectra import points_with
 from grainmodes.figures.shared import appearance, spectral_rows
-from grainmodes.figures.shared.panels import draw_panels
-from grainmodes.figures.shared.selection import PAPER_RATTLERS, Options, panels, positive
-from grainmodes.figures.shared.spectral_points import place
+from grainmodes.figures.shared.selection import (
+    PAPER_RATTLER_KTS,
+    Options,
+    choose_panels,
+    positive_kts,
+)
+from grainmodes.figures.shared.spectral_panels import draw_panels
+from grainmodes.figures.shared.spectral_points import choose_points
 
 COLUMNS = (
     spectral_rows.BINS
@@ -22,7 +28,7 @@ COLUMNS = (
     | {"kind": ("-", "with rattlers kept, or without them")}
 )
 ENDINGS = {"with": "_rattlers", "without": ""}
-NAMES = ("participation_ratio", "bin_participation_ratio")
+VARIABLES = ("participation_ratio", "bin_participation_ratio")
 
 
 def table(ensemble, options: Options) -> pd.DataFrame:
@@ -30,31 +36,32 @@ def table(ensemble, options: Options) -> pd.DataFrame:
 
     Raises:
         BlockError: the study computed no eigenvectors.
-        ValueError: the ensemble has no k_T > 0.
+        ValueError: the ensemble has no k_T > 0, or no modes at the requested n, phi or kt.
     """
-    kind = "with" if f"{NAMES[0]}{ENDINGS['with']}" in ensemble else "without"
+    kind = "with" if f"{VARIABLES[0]}{ENDINGS['with']}" in ensemble else "without"
     ending = ENDINGS[kind]
-    n, phi, found = place(options, points_with(ensemble, *(name + ending for name in NAMES)))
-    kappas = panels(options.kt, positive(found, "participation_ratio"), PAPER_RATTLERS)
-    kinds = [{kind: ((n, phi, kappa), ending)} for kappa in kappas]
-    parts = [spectral_rows.compared(ensemble, options, of) for of in kinds]
-    return spectral_rows.stacked(parts)[list(COLUMNS)]
+    present = points_with(ensemble, *(name + ending for name in VARIABLES))
+    chosen = choose_points(options, present)
+    kts = positive_kts(chosen.kt, "participation_ratio")
+    parts = [
+        spectral_rows.compare_spectra(ensemble, options, {kind: (point, ending)})
+        for point in chosen.at(choose_panels(options.kt, kts, PAPER_RATTLER_KTS))
+    ]
+    return spectral_rows.stack(parts)[list(COLUMNS)]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Double logarithmic; a bin without modes has no symbol (A plots 0 there)."""
+    """Draw a panel per k_T."""
     filled = table[table["participation_ratio"].notna()]
-    panels = draw_panels(
-        figure, filled, r"$p(\omega)$", _panel, f"{table['kind'].iloc[0]} rattlers"
-    )
+    note = f"{table['kind'].iloc[0]} rattlers"
+    panels = draw_panels(figure, filled, r"$p(\omega)$", _panel, note)
     for axes in panels:
         axes.set_yscale("log")
     panels[0].legend()
 
 
-def _panel(axes: Axes, of: pd.DataFrame) -> None:
-    axes.axhline(1.0 / of["n"].iloc[0], color="0.4", linestyle="--", linewidth=0.7, label="$1/N$")
-    bars = of["participation_ratio_standard_error"]
-    appearance.draw_cloud(
-        axes, of["omega"], of["participation_ratio"], bars, appearance.ROTATIONAL, "o"
-    )
+def _panel(axes: Axes, bins: pd.DataFrame) -> None:
+    one_grain = 1.0 / bins["n"].iloc[0]
+    axes.axhline(one_grain, color="0.4", linestyle="--", linewidth=0.7, label="$1/N$")
+    ratio, bars = bins["participation_ratio"], bins["participation_ratio_standard_error"]
+    appearance.draw_cloud(axes, bins["omega"], ratio, bars, appearance.ROTATIONAL, "o")

@@ -1,6 +1,13 @@
-"""The first event in closer and closer brackets: the curve, and where it is (B, Figs. 11, 12)."""
+"""The first event of a sample in closer and closer brackets: B, Figs. 11 and 12.
+
+(a): stress against strain around the event, a colour per smallest step Δγ_Th. (b): the last state
+before the event (squares) and the first one after it (circles), as distances to γ_c, against Δγ_Th;
+γ_c is the middle of the closest bracket, and the lines are ±Δγ_Th.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import numpy as np
 import pandas as pd
@@ -8,17 +15,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
-from grainmodes.figures.shared import appearance
-from grainmodes.figures.shared.event_detail_rows import (
-    AFTER,
-    BEFORE,
-    SAMPLE,
-    caption,
-    critical_strain,
-    sample,
-    with_event,
-)
-from grainmodes.figures.shared.field_rows import joined
+from grainmodes.figures.shared import appearance, labels
+from grainmodes.figures.shared.appearance import AFTER, BEFORE
+from grainmodes.figures.shared.event_rows import SAMPLE, critical_strain, identity, sample_with
+from grainmodes.figures.shared.sample_files import joined
 from grainmodes.figures.shared.selection import Options
 
 PAPER_N = 128
@@ -26,66 +26,70 @@ SIDES = {"before": (BEFORE, "s"), "after": (AFTER, "o")}
 
 COLUMNS = {
     **SAMPLE,
-    "min_step": ("1", "smallest step of the walk"),
+    "min_step": ("1", "smallest step of the shear"),
     "end": ("", "before, after: the state is that end of its bracket; else empty"),
-    "strain": ("1", "strain of a state of the walk"),
-    "distance": ("1", "its strain less that of the event in the closest bracket"),
+    "strain": ("1", "strain of a state of the shear"),
+    "distance": ("1", "its strain minus that of the event in the closest bracket"),
     "stress": ("k_N", "its stress (sigma_xy + sigma_yx) / 2"),
 }
 
 
 def table(event_details: list[Block], options: Options) -> pd.DataFrame:
-    """A row per walk and state around its event, with the columns `COLUMNS`.
+    """A row per shear and state around its event, with the columns `COLUMNS`.
 
     Raises:
-        ValueError: no sample has the n, phi or kt asked for.
+        ValueError: no sample has the requested n, phi or kt.
     """
-    shown = with_event(event_details, options, PAPER_N)
-    return joined((walk for block in shown for walk in _walks(block)), COLUMNS)
+    shown = sample_with("event_count", event_details, options, PAPER_N)
+    return joined((rows for block in shown for rows in _rows_of_shears(block)), COLUMNS)
 
 
-def _walks(block: Block):
-    of = {name: array[0] for name, array in block.variables.items() if name.startswith("bracket")}
+def _rows_of_shears(block: Block) -> Iterator[pd.DataFrame]:
+    """The states around the event in the shear of each smallest step that found one."""
+    sample = {name: array[0] for name, array in block.variables.items()}
     critical = critical_strain(block)
-    for place in np.flatnonzero(of["bracket_kind"]):
-        strain, stress = (of[f"bracket_curve_{name}"][place] for name in ("strain", "stress"))
-        held = ~np.isnan(strain)
+    for shear in np.flatnonzero(sample["bracket_kind"]):
+        strain, stress = (sample[f"bracket_curve_{name}"][shear] for name in ("strain", "stress"))
         end = np.full(len(strain), "", object)
         for side in SIDES:
-            end[strain == of[f"bracket_strain_{side}"][place]] = side
+            end[strain == sample[f"bracket_strain_{side}"][shear]] = side
         columns = {"strain": strain, "distance": strain - critical, "stress": stress, "end": end}
-        columns = {name: column[held] for name, column in columns.items()}
-        step = of["bracket_min_step"][place]
-        yield pd.DataFrame(sample(block) | {"min_step": step} | columns)
+        known = ~np.isnan(strain)
+        columns = {name: column[known] for name, column in columns.items()}
+        step = {"min_step": sample["bracket_min_step"][shear]}
+        yield pd.DataFrame(identity(block) | step | columns)
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """(a): the curves on top of each other; (b): the ends of the brackets."""
+    """Draw both panels."""
     figure.set_size_inches(7.0, 3.0)
-    curve, ends = figure.subplots(1, 2)
-    _curves(curve, table)
-    _ends(ends, table)
+    left, right = figure.subplots(1, 2)
+    _draw_curves(left, table)
+    _draw_ends(right, table)
     critical = (table["strain"] - table["distance"]).iloc[0]
-    figure.suptitle(caption(table, rf"$\gamma_c = {critical:.11f}$"))
+    figure.suptitle(labels.sample_caption(table, rf"$\gamma_c = {critical:.11f}$"))
 
 
-def _curves(axes: Axes, table: pd.DataFrame) -> None:
+def _draw_curves(axes: Axes, table: pd.DataFrame) -> None:
+    """Draw the stress of every shear; symbols shrink with Δγ_Th, as the curves coincide."""
     steps = sorted(table["min_step"].unique(), reverse=True)
-    for place, (step, colour, marker) in enumerate(appearance.series(steps)):
-        of, size = table[table["min_step"] == step], 8.0 - 0.8 * place
-        style = {"color": colour, "mfc": "none", "mew": 0.6, "markersize": size}
-        axes.plot(1e4 * of["distance"], of["stress"], marker, **style, label=f"${_power(step)}$")
+    for index, (step, colour, marker) in enumerate(appearance.curve_styles(steps)):
+        curve = table[table["min_step"] == step]
+        style = {"color": colour, "mfc": "none", "mew": 0.6, "markersize": 8.0 - 0.8 * index}
+        label = f"${labels.power(step, 3)}$"
+        axes.plot(1e4 * curve["distance"], curve["stress"], marker, **style, label=label)
     axes.set(xlabel=r"$(\gamma - \gamma_c) \times 10^4$")
-    axes.set_ylabel(appearance.modulus_label(r"$\sigma$", table))
+    axes.set_ylabel(labels.modulus_label(r"$\sigma$", table))
     axes.legend(title=r"$\Delta\gamma_{\rm Th}$", ncols=2)
-    appearance.name_panel(axes, 0, "stress around the event")
+    labels.name_panel(axes, 0, "stress around the event")
 
 
-def _ends(axes: Axes, table: pd.DataFrame) -> None:
-    """Symmetric logarithmic: below 0 the last state before the event, above it the first after."""
+def _draw_ends(axes: Axes, table: pd.DataFrame) -> None:
+    """Draw the ends of the brackets on a symmetric logarithmic axis of γ − γ_c."""
     for side, (colour, marker) in SIDES.items():
-        of = table[table["end"] == side]
-        axes.plot(of["min_step"], of["distance"], marker, color=colour, mfc="none", label=side)
+        ends = table[table["end"] == side]
+        style = {"color": colour, "mfc": "none", "label": side}
+        axes.plot(ends["min_step"], ends["distance"], marker, **style)
     steps = np.sort(table["min_step"].unique())
     for sign in (-1.0, 1.0):
         name = r"$\pm \Delta\gamma_{\rm Th}$" if sign > 0 else None
@@ -98,8 +102,4 @@ def _ends(axes: Axes, table: pd.DataFrame) -> None:
     axes.set_ylim(-4.0 * steps[-1], 4.0 * steps[-1])
     axes.set(xlabel=r"$\Delta\gamma_{\rm Th}$", ylabel=r"$\gamma - \gamma_c$")
     axes.legend(loc="upper left")
-    appearance.name_panel(axes, 1, "ends of the bracket")
-
-
-def _power(step: float) -> str:
-    return appearance.power(float(f"{step:.3g}"))
+    labels.name_panel(axes, 1, "ends of the bracket")

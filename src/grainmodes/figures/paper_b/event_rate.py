@@ -1,4 +1,8 @@
-"""dq̊/dγ just after an event by linear response and by a simulated step (B, Fig. 5)."""
+"""The non-affine displacement rate dq̊/dγ just after an event: B, Fig. 5.
+
+Two maps on one scale: left by linear response, B (41), right by a simulated step, B (13), (14).
+Arrows are displacements per unit strain, colours rotations per unit strain.
+"""
 
 from __future__ import annotations
 
@@ -7,8 +11,8 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import event_maps, step_strain_maps
-from grainmodes.figures.shared.field_rows import described
 from grainmodes.figures.shared.grain_maps import Scale
+from grainmodes.figures.shared.grain_rows import field_columns
 from grainmodes.figures.shared.selection import Options
 
 VARIABLES = {"theory": "rate", "simulation": "rate_simulated"}
@@ -17,8 +21,8 @@ TITLES = {"theory": "linear response", "simulation": "simulation"}
 COLUMNS = {
     **event_maps.COLUMNS,
     "strain_step": ("1", "size of the simulated step"),
-    **described("theory", "d", "non-affine displacement per unit strain by linear response"),
-    **described("simulation", "d", "the same from a relaxed step; empty: carries no load"),
+    **field_columns("theory", "d", "non-affine displacement per unit strain by linear response"),
+    **field_columns("simulation", "d", "the same from a relaxed step; empty: carries no load"),
 }
 
 
@@ -26,9 +30,11 @@ def table(event_details: list[Block], options: Options) -> pd.DataFrame:
     """The field in theory and simulation, grain by grain, with the columns `COLUMNS`.
 
     Raises:
-        ValueError: no sample has the n, phi or kt asked for.
+        ValueError: no sample has the requested n, phi or kt.
     """
-    return event_maps.rows(event_details, options, VARIABLES, COLUMNS, strain_step=_step)
+    return event_maps.event_field_rows(
+        event_details, options, VARIABLES, COLUMNS, strain_step=_step
+    )
 
 
 def _step(block: Block) -> float:
@@ -36,9 +42,9 @@ def _step(block: Block) -> float:
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Two maps on one scale."""
+    """Draw both maps."""
     figure.set_size_inches(7.0, 3.9)
     figure.set_layout_engine("compressed")
-    scale = Scale.of(table, tuple(VARIABLES), arrow=1.2)
-    note = f"arrows: displacement per unit strain, {event_maps.at_event(table)}"
-    step_strain_maps.draw_pair(figure, table, TITLES, dict.fromkeys(VARIABLES, scale), note)
+    scales = dict.fromkeys(VARIABLES, Scale.from_fields(table, tuple(VARIABLES), arrow=1.2))
+    note = f"arrows: displacement per unit strain, {event_maps.event_strain_label(table)}"
+    step_strain_maps.draw_two_maps(figure, table, TITLES, scales, note)

@@ -1,4 +1,8 @@
-"""Mean rigidity over the samples against strain: theory, and simulation but events (B, Fig. 9)."""
+"""Mean rigidity of the samples against strain: B, Fig. 9.
+
+Line: linear response; symbols with standard errors: slope of the simulated stress, without the
+steps in which a plastic event lies.
+"""
 
 from __future__ import annotations
 
@@ -7,21 +11,24 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from grainmodes.ensemble.curves import even_bins
-from grainmodes.figures.shared import appearance
+from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import ROTATIONAL
-from grainmodes.figures.shared.rigidity_rows import UNIT
+from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.selection import Options
-from grainmodes.figures.shared.sheared_points import POINT, at_point
+from grainmodes.figures.shared.sheared_samples import POINT, curves_at_point
 from grainmodes.statistics import averages
 
-BINS = 50
-"""Bins over all strains."""
+MAX_BINS = 50
+"""Number of bins over all strains; fewer where no curve has so many steps."""
 
 COLUMNS = POINT | {
     "kind": ("-", "theory or simulation"),
     "strain": ("1", "middle of a bin of strain"),
-    "rigidity": (UNIT, "mean over the samples of g, or of the slope of the stress but in events"),
-    "standard_error": (UNIT, "standard error of the mean"),
+    "rigidity": (
+        RIGIDITY_UNIT,
+        "mean over the samples of g, or of the slope of the stress but in events",
+    ),
+    "standard_error": (RIGIDITY_UNIT, "standard error of the mean"),
     "samples": ("1", "number of samples"),
 }
 
@@ -31,23 +38,24 @@ def table(ensemble, options: Options) -> pd.DataFrame:
 
     Raises:
         BlockError: the ensemble holds no curves.
-        ValueError: no curve lies at the n, phi or kt asked for.
+        ValueError: no curve lies at the requested n, phi or kt.
     """
-    point, found = at_point(ensemble, options)
-    of = [curve for curve in found.values() if len(curve.step)]
-    if not of:
+    point, found = curves_at_point(ensemble, options)
+    curves = [curve for curve in found.values() if len(curve.step)]
+    if not curves:
         return pd.DataFrame(columns=list(COLUMNS))
-    edges = even_bins(of, min(BINS, max(len(curve.step) for curve in of)))
-    kinds = {
-        "theory": [curve.mean_slopes(curve.predicted_change, edges) for curve in of],
-        "simulation": [curve.mean_slopes(curve.stress_change, edges) for curve in of],
+    edges = even_bins(curves, min(MAX_BINS, max(len(curve.step) for curve in curves)))
+    slopes = {
+        "theory": [curve.mean_slopes(curve.predicted_change, edges) for curve in curves],
+        "simulation": [curve.mean_slopes(curve.stress_change, edges) for curve in curves],
     }
-    parts = [_rows(kind, np.array(slopes), edges) for kind, slopes in kinds.items()]
+    parts = [_means(kind, np.array(values), edges) for kind, values in slopes.items()]
     rows = pd.concat(parts, ignore_index=True).assign(**point)[list(COLUMNS)]
     return rows[rows["samples"] > 0].reset_index(drop=True)
 
 
-def _rows(kind: str, slopes: np.ndarray, edges: np.ndarray) -> pd.DataFrame:
+def _means(kind: str, slopes: np.ndarray, edges: np.ndarray) -> pd.DataFrame:
+    """Means over the samples of slopes (S, B) in bins."""
     means = averages.average(slopes.T, np.ones(slopes.T.shape, dtype=bool))
     return pd.DataFrame(
         {
@@ -61,7 +69,7 @@ def _rows(kind: str, slopes: np.ndarray, edges: np.ndarray) -> pd.DataFrame:
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Line: theory; symbols with bars: simulation."""
+    """Draw both in one panel."""
     axes = figure.subplots()
     theory, simulation = (table[table["kind"] == kind] for kind in ("theory", "simulation"))
     axes.plot(theory["strain"], theory["rigidity"], color=ROTATIONAL, label="theory", zorder=3)
@@ -76,6 +84,6 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
         elinewidth=0.6,
         label="simulation",
     )
-    axes.set(xlabel=r"$\gamma$", ylabel=appearance.modulus_label("$G$", table))
+    axes.set(xlabel=r"$\gamma$", ylabel=labels.modulus_label("$G$", table))
     axes.legend()
-    appearance.write_caption(figure, table, ("n", "phi", "kt"), "steps with events left out")
+    labels.write_caption(figure, table, ("n", "phi", "kt"), "steps with events left out")

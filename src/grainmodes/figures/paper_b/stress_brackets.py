@@ -1,6 +1,7 @@
-"""Stress against strain with events bracketed and not, in one sample (B, Fig. 2).
+"""Stress against strain with events bracketed and without brackets, in one sample: B, Fig. 2.
 
-Both curves on the grid of Δγ_in; the lower panel shows what they differ by.
+Above both curves at the strains of the coarse steps Δγ_in: broad line with brackets, thin line
+without. Below the absolute difference of the two.
 """
 
 from __future__ import annotations
@@ -10,22 +11,26 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from grainmodes.ensemble.reading import variable
+from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import ROTATIONAL
-from grainmodes.figures.shared.rigidity_rows import UNIT
+from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.selection import Options
-from grainmodes.figures.shared.sheared_points import SAMPLE, name_sample, sample
+from grainmodes.figures.shared.sheared_samples import SAMPLE, one_curve
 
 COLUMNS = SAMPLE | {
     "strain": ("1", "strain γ"),
-    "bracketed": (UNIT, "stress (sigma_xy + sigma_yx) / 2, every event bracketed to Δγ_Th"),
-    "coarse_run": (UNIT, "the same of a shear in steps of Δγ_in alone"),
+    "bracketed": (
+        RIGIDITY_UNIT,
+        "stress (sigma_xy + sigma_yx) / 2, every event bracketed to Δγ_Th",
+    ),
+    "coarse_run": (RIGIDITY_UNIT, "the same of a shear in steps of Δγ_in alone"),
 }
 
-SAME = 1e-12
-"""Strains that are the same may differ by so much."""
+STRAIN_TOLERANCE = 1e-12
+"""Difference up to which two strains count as equal."""
 
-FLOOR = 1e-12
-"""Smallest difference drawn: less is rounding."""
+SMALLEST_DIFFERENCE = 1e-12
+"""Smallest difference of stresses that is drawn; smaller ones are rounding errors."""
 
 
 def table(ensemble, options: Options) -> pd.DataFrame:
@@ -33,25 +38,25 @@ def table(ensemble, options: Options) -> pd.DataFrame:
 
     Raises:
         BlockError: the ensemble holds no curves, or none without brackets.
-        ValueError: no curve lies at the n, phi, kt or seed asked for.
+        ValueError: no curve lies at the requested n, phi, kt or seed.
     """
-    curve, rows = sample(ensemble, options, COLUMNS)
+    curve, rows = one_curve(ensemble, options, COLUMNS)
     if curve is None:
         return rows
-    place = {name: rows[name].iloc[0] for name in ("n", "phi", "kt", "seed")}
+    sample = {name: rows[name].iloc[0] for name in ("n", "phi", "kt", "seed")}
     strain, stress = (
-        variable(ensemble, f"coarse_{name}").sel(place).to_numpy() for name in ("strain", "stress")
+        variable(ensemble, f"coarse_{name}").sel(sample).to_numpy() for name in ("strain", "stress")
     )
-    known = np.isfinite(strain) & (strain <= curve.strain[-1] + SAME)
+    known = np.isfinite(strain) & (strain <= curve.strain[-1] + STRAIN_TOLERANCE)
     rows = rows.iloc[: np.count_nonzero(known)].copy()
-    at = np.searchsorted(curve.strain, strain[known] - SAME)
+    state = np.searchsorted(curve.strain, strain[known] - STRAIN_TOLERANCE)
     return rows.assign(
-        strain=strain[known], bracketed=curve.stress[at], coarse_run=stress[known]
+        strain=strain[known], bracketed=curve.stress[state], coarse_run=stress[known]
     ).reset_index(drop=True)
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Broad line: bracketed; thin: not; below, the difference."""
+    """Draw both curves, and their difference below them."""
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
     above.plot(
         table["strain"], table["bracketed"], color=ROTATIONAL, lw=2.4, label="events bracketed"
@@ -60,7 +65,8 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     above.set(ylabel=r"$\sigma\,/\,k_N$")
     above.legend()
     difference = np.abs(table["coarse_run"] - table["bracketed"])
-    below.semilogy(table["strain"], difference.clip(lower=FLOOR), color="0.3", lw=0.8)
+    difference = difference.clip(lower=SMALLEST_DIFFERENCE)
+    below.semilogy(table["strain"], difference, color="0.3", lw=0.8)
     below.set(xlabel=r"$\gamma$", ylabel=r"difference$\,/\,k_N$")
     figure.align_ylabels()
-    name_sample(figure, table, "the same sample with its events bracketed and not")
+    labels.write_sample_caption(figure, table, "the same sample with its events bracketed and not")

@@ -1,4 +1,8 @@
-"""The spirals of a released pair as a film: the trajectories of Fig. 5 of C growing in time."""
+"""The spirals of a released pair as a film: the trajectories of C, Fig. 5, as they grow in time.
+
+A part of the box is shown. Dots are the grains, lines their trajectories during the last frames;
+displacements are drawn larger than they are, by the factor above the film.
+"""
 
 from __future__ import annotations
 
@@ -13,19 +17,20 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import BlockError
 from grainmodes.figures import STYLE
 from grainmodes.figures.paper_c import release_spirals
-from grainmodes.figures.shared import appearance, field_rows
-from grainmodes.figures.shared.release_rows import caption
+from grainmodes.figures.shared import labels
+from grainmodes.figures.shared.appearance import ROTATIONAL, TRANSLATIONAL
+from grainmodes.figures.shared.release_rows import release_caption
+from grainmodes.figures.shared.sample_files import read_samples
 from grainmodes.figures.shared.selection import Options
 from grainmodes.runtime.atomic import replaced
 
-RATE, RESOLUTION = 20, 110
-"""Frames a second; dots per inch."""
+FRAMES_PER_SECOND, DOTS_PER_INCH = 20, 110
 
-WINDOW = 12.0
-"""Side of the part of the box that is shown, in d."""
+MAX_SIDE = 12.0
+"""Largest side of the part of the box that is shown, in d."""
 
-TAIL = 24
-"""Frames for which a place is seen, a turn."""
+TRAIL_FRAMES = 24
+"""Number of frames for which a trajectory stays visible, about a turn."""
 
 
 def write(data: list[Path], output: Path, options: dict) -> None:
@@ -36,42 +41,40 @@ def write(data: list[Path], output: Path, options: dict) -> None:
         options: keys of `selection.Options`; {} for the sample that the figure shows.
 
     Raises:
-        ValueError: no sample has the n, phi, kt or seed asked for.
+        ValueError: no sample has the requested n, phi, kt or seed.
         BlockError: a file is not readable, or none holds a film.
         OSError: the file cannot be written.
     """
-    name = "release_spirals"
-    releases = field_rows.read(data, "release")
-    table = release_spirals.table(releases, Options.read(name, options))
+    releases = read_samples(data, "release")
+    table = release_spirals.table(releases, Options.read("release_spirals", options))
     if table.empty:
-        raise BlockError("no sample was released far enough to hold a film")
+        raise BlockError("no released sample holds a film; expected at least one")
     with matplotlib.style.context(STYLE):
         figure = Figure(figsize=(4.4, 4.8))
         FigureCanvasAgg(figure)
         with replaced(output) as partial:
-            # Pillow tells the format by the suffix alone
-            whole = partial.with_suffix(".gif")
-            _write(figure, table, whole)
-            whole.replace(partial)
+            # Pillow chooses the format by the suffix alone
+            with_suffix = partial.with_suffix(".gif")
+            _write_frames(figure, table, with_suffix)
+            with_suffix.replace(partial)
 
 
-def _write(figure: Figure, table, path: Path) -> None:
+def _write_frames(figure: Figure, table, path: Path) -> None:
     axes, paths = figure.subplots(), release_spirals.trajectories(table)
-    release_spirals.ground(axes, table)
-    side = min(WINDOW, table["box_length"].iloc[0])
+    release_spirals.draw_grains_at_start(axes, table)
+    side = min(MAX_SIDE, table["box_length"].iloc[0])
     axes.set(xlim=(0.0, side), ylim=(0.0, side))
-    factor = appearance.power(table["factor"].iloc[0])
-    figure.suptitle(f"{caption(table)}\ndisplacements drawn ${factor}$ times as long")
-    colours = appearance.ROTATIONAL, appearance.TRANSLATIONAL
+    factor = labels.power(table["factor"].iloc[0])
+    figure.suptitle(f"{release_caption(table)}\ndisplacements drawn ${factor}$ times as long")
     lines = release_spirals.add_paths(axes, paths[:2])
-    lines.set(array=None, color=colours[0], lw=0.9)
-    (heads,) = axes.plot([], [], ".", color=colours[1], ms=3.0)
+    lines.set(array=None, color=ROTATIONAL, lw=0.9)
+    (heads,) = axes.plot([], [], ".", color=TRANSLATIONAL, ms=3.0)
     figure.draw_without_rendering()
     figure.set_layout_engine("none")  # laid out once, not for every frame
-    writer = PillowWriter(fps=RATE)
-    with writer.saving(figure, path, RESOLUTION):
+    writer = PillowWriter(fps=FRAMES_PER_SECOND)
+    with writer.saving(figure, path, DOTS_PER_INCH):
         for frame in range(1, len(paths)):
-            seen = paths[max(0, frame - TAIL) : frame + 1]
-            lines.set_segments(list(np.moveaxis(seen, 1, 0)))
-            heads.set_data(*seen[-1].T)
+            trail = paths[max(0, frame - TRAIL_FRAMES) : frame + 1]
+            lines.set_segments(list(np.moveaxis(trail, 1, 0)))
+            heads.set_data(*trail[-1].T)
             writer.grab_frame()

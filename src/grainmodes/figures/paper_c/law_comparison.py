@@ -1,8 +1,10 @@
-"""Complex pairs against strain under several tangential laws; do they grow? (C, Fig. 12(a)).
+"""Complex pairs against strain under several tangential laws, and whether they grow: C, Fig. 12(a).
 
-C shows one eigenpair of harmonic grains with the smoothed Coulomb law; here the mean number of
-pairs stands for it, beside the laws without slip, with the sharp Coulomb law, and with springs that
-remember their force. Below, the growth rate of released states over the ω_i of their fastest pair.
+C shows one eigenpair of harmonic grains with the smoothed Coulomb law. Here the mean number of
+complex pairs stands for it, beside that of the laws without slip, with the sharp Coulomb law, and
+with springs that remember their force; lines with standard errors: springs at their threshold slip,
+dotted lines: they stick. Below, the growth rate of released states over ω_i of their fastest pair,
+C (12). A colour and a symbol per law; symbols are open where the force is remembered.
 """
 
 from __future__ import annotations
@@ -14,9 +16,9 @@ from matplotlib.figure import Figure
 
 from grainmodes.ensemble import normal_law
 from grainmodes.ensemble.law_comparison import comparison_at, points_with_comparison
-from grainmodes.figures.shared import appearance
+from grainmodes.figures.shared import appearance, labels
 from grainmodes.figures.shared.selection import Options
-from grainmodes.figures.shared.sheared_points import POINT, shown
+from grainmodes.figures.shared.sheared_samples import POINT, choose_point
 from grainmodes.statistics import averages
 
 COLUMNS = POINT | {
@@ -27,11 +29,11 @@ COLUMNS = POINT | {
     "standard_error": ("1", "standard error of the mean"),
     "pairs_sticking": ("1", "the same, springs at their threshold sticking"),
     "rate": ("1/t_0", "largest omega_i of a released state"),
-    "growth": ("1/t_0", "rate at which it leaves"),
+    "growth": ("1/t_0", "growth rate of its simulated motion"),
     "samples": ("1", "number of samples"),
 }
 
-WORDS = {
+LAW_NAMES = {
     "elastic": "elastic",
     "elastic_force": "elastic, force kept",
     "smoothed_coulomb": "smoothed Coulomb",
@@ -41,31 +43,31 @@ WORDS = {
 
 NOTE = "dotted: springs at their threshold stick"
 
-SPAN = (-0.15, 1.25)
-"""Growth over ω_i that is shown."""
+RATIO_RANGE = (-0.15, 1.25)
+"""Range of growth rate over ω_i that is shown; values beyond lie at its ends."""
 
 
 def table(ensemble, options: Options) -> pd.DataFrame:
     """Mean numbers of pairs, and below them the released states, with the columns `COLUMNS`.
 
     Raises:
-        BlockError: the ensemble holds no variants.
-        ValueError: there are none at the n, phi or kt asked for.
+        BlockError: the ensemble holds no law comparison.
+        ValueError: there are none at the requested n, phi or kt.
     """
-    found = points_with_comparison(ensemble)
-    if not found:
+    points = points_with_comparison(ensemble)
+    if not points:
         return pd.DataFrame(columns=list(COLUMNS))
-    point = shown(found, options)
+    point = choose_point(points, options)
     strain, laws = comparison_at(ensemble, **point)
-    parts = [_pairs(law, strain, of) for law, of in laws.items()]
-    parts += [_released(law, strain, of) for law, of in laws.items()]
+    parts = [_mean_pairs(law, strain, samples) for law, samples in laws.items()]
+    parts += [_released_states(law, strain, samples) for law, samples in laws.items()]
     rows = pd.concat([part for part in parts if len(part)], ignore_index=True)
     return rows.assign(law=normal_law(ensemble), **point).reindex(columns=list(COLUMNS))
 
 
-def _pairs(law: str, strain: np.ndarray, of: dict[str, np.ndarray]) -> pd.DataFrame:
+def _mean_pairs(law: str, strain: np.ndarray, samples: dict[str, np.ndarray]) -> pd.DataFrame:
     slipping, sticking = (
-        averages.average(of[name].T, np.isfinite(of[name].T))
+        averages.average(samples[name].T, np.isfinite(samples[name].T))
         for name in ("pairs_slipping", "pairs_sticking")
     )
     return pd.DataFrame(
@@ -81,41 +83,42 @@ def _pairs(law: str, strain: np.ndarray, of: dict[str, np.ndarray]) -> pd.DataFr
     )
 
 
-def _released(law: str, strain: np.ndarray, of: dict[str, np.ndarray]) -> pd.DataFrame:
-    known = np.isfinite(of["growth"])
-    numbers = {name: of[name][known] for name in ("rate", "growth")}
-    at = np.broadcast_to(strain, known.shape)[known]
+def _released_states(law: str, strain: np.ndarray, samples: dict[str, np.ndarray]) -> pd.DataFrame:
+    released = np.isfinite(samples["growth"])
+    rates = {name: samples[name][released] for name in ("rate", "growth")}
+    strain = np.broadcast_to(strain, released.shape)[released]
     return pd.DataFrame(
-        {"kind": "release", "tangential": law, "strain": at, "samples": 1} | numbers
+        {"kind": "release", "tangential": law, "strain": strain, "samples": 1} | rates
     )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Pairs above, growth below, a colour and a symbol per law; open where a force is kept."""
+    """Draw pairs above and growth rates below."""
     figure.set_size_inches(3.5, 5.0)
     upper, lower = figure.subplots(2, 1)
-    for law, colour, marker in appearance.series(list(WORDS)):
-        of = table[table["tangential"] == law]
-        _draw_pairs(upper, of[of["kind"] == "pairs"], law, colour, marker)
-        release = of[of["kind"] == "release"]
-        ratio = (release["growth"] / release["rate"]).clip(*SPAN)
-        lower.plot(release["rate"], ratio, marker, color=colour, **appearance.OPEN)
+    for law, colour, marker in appearance.curve_styles(list(LAW_NAMES)):
+        rows = table[table["tangential"] == law]
+        _draw_pairs(upper, rows[rows["kind"] == "pairs"], law, colour, marker)
+        release = rows[rows["kind"] == "release"]
+        ratio = (release["growth"] / release["rate"]).clip(*RATIO_RANGE)
+        lower.plot(release["rate"], ratio, marker, color=colour, **appearance.OPEN_SYMBOLS)
     upper.set(xlabel=r"$\gamma$", ylabel="complex pairs")
     upper.legend(fontsize=6)
-    lower.set(xscale="log", xlabel=r"$\omega_i t_0$", ylabel=r"growth / $\omega_i$", ylim=SPAN)
+    lower.set(xscale="log", xlabel=r"$\omega_i t_0$")
+    lower.set(ylabel=r"growth / $\omega_i$", ylim=RATIO_RANGE)
     for level in (0.0, 1.0):
         lower.axhline(level, color="0.6", linewidth=0.5, zorder=1)
     for index, (axes, title) in enumerate(((upper, "pairs"), (lower, "released states"))):
-        appearance.name_panel(axes, index, title)
+        labels.name_panel(axes, index, title)
     rows = table[table["kind"] == "pairs"]
     note = f"{rows['law'].iloc[0]} grains; {NOTE}"
-    appearance.write_caption(figure, rows, ("n", "phi", "kt"), note)
+    labels.write_caption(figure, rows, ("n", "phi", "kt"), note)
 
 
-def _draw_pairs(axes: Axes, of: pd.DataFrame, law: str, colour, marker: str) -> None:
+def _draw_pairs(axes: Axes, rows: pd.DataFrame, law: str, colour, marker: str) -> None:
     style = {"color": colour, "markersize": 2.5, "linewidth": 0.7, "elinewidth": 0.5}
     if law.endswith("_force"):
         style |= {"mfc": "none", "mew": 0.6, "markersize": 5.0}
-    bars = of["standard_error"]
-    axes.errorbar(of["strain"], of["pairs"], bars, marker=marker, label=WORDS[law], **style)
-    axes.plot(of["strain"], of["pairs_sticking"], ":", color=colour, linewidth=0.7)
+    bars = rows["standard_error"]
+    axes.errorbar(rows["strain"], rows["pairs"], bars, marker=marker, label=LAW_NAMES[law], **style)
+    axes.plot(rows["strain"], rows["pairs_sticking"], ":", color=colour, linewidth=0.7)

@@ -1,52 +1,52 @@
-"""Two real eigenvalues meet under shear and a complex pair is born (C, Fig. 1)."""
+"""Two real eigenvalues of M⁻¹J meet under shear and become a complex pair, C (19): C, Fig. 1.
+
+Above the real parts, below the imaginary parts of the two, against γ; the dashed line lies where
+they meet.
+"""
 
 from __future__ import annotations
 
 import pandas as pd
 from matplotlib.figure import Figure
 
-from grainmodes.figures.shared.paired_samples import (
-    EIGENVALUE,
-    SAMPLE_COLUMNS,
+from grainmodes.figures.shared.labels import write_sample_caption
+from grainmodes.figures.shared.pair_samples import (
+    EIGENVALUES,
+    SAMPLE,
+    choose_sample,
     draw_eigenvalues,
+    is_pair,
     longest_pair,
-    name_sample,
-    shown,
-    with_paths,
+    samples_with_paths,
 )
 from grainmodes.figures.shared.selection import Options
 
-COLUMNS = SAMPLE_COLUMNS | {
-    "strain": ("1", "strain of the state"),
-    "real_1": (EIGENVALUE, "real part of the first eigenvalue of J / M"),
-    "real_2": (EIGENVALUE, "real part of the second one"),
-    "imaginary": (EIGENVALUE, "imaginary part of the first one; the second has its negative"),
-}
+COLUMNS = SAMPLE | {"strain": ("1", "strain of the state")} | EIGENVALUES
 
-AFTER = 20
-"""States of the pair that are shown."""
+STATES_AFTER_BIRTH = 20
+"""Number of states of the pair that are shown."""
 
 
 def table(ensemble, options: Options) -> pd.DataFrame:
     """A row per state up to some states after the birth, with the columns `COLUMNS`.
 
     Raises:
-        BlockError: its study did not ask for complex pairs.
-        ValueError: none lies at the n, phi, kt or seed asked for.
+        BlockError: the study did not request complex pairs.
+        ValueError: no sample has the requested n, phi, kt or seed.
     """
-    sample = shown(with_paths(ensemble), options)
+    sample = choose_sample(samples_with_paths(ensemble), options)
     if sample is None:
         return pd.DataFrame(columns=list(COLUMNS))
     path = longest_pair(sample)
-    born = (path["imaginary"] > 0.0).to_numpy().argmax()
-    return path.iloc[: born + AFTER].assign(**sample.coordinates)[list(COLUMNS)]
+    birth = is_pair(path).to_numpy().argmax()
+    return path.iloc[: birth + STATES_AFTER_BIRTH].assign(**sample.coordinates)[list(COLUMNS)]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Above the real, below the imaginary parts."""
+    """Draw the real parts above the imaginary ones."""
     figure.set_size_inches(3.6, 4.2)
     real, imaginary = figure.subplots(2, 1, sharex=True)
     draw_eigenvalues(real, imaginary, table)
     imaginary.set(xlabel=r"$\gamma$")
     figure.align_ylabels()
-    name_sample(figure, table, "two real modes become a complex pair")
+    write_sample_caption(figure, table, "two real modes become a complex pair")

@@ -1,4 +1,9 @@
-"""Contacts along a release, at Coulomb's threshold, and by grain before and after (C, Fig. 9)."""
+"""Contacts along the release of a complex pair, and by grain before and after it: C, Fig. 9.
+
+(a) mean number of contacts of a grain and (b) number of contacts at Coulomb's threshold, C (8),
+against time; vertical lines: end of the growth (dashed) and second instability (dotted). (c) P(z),
+the fraction of the grains with z contacts, squares before and circles after the release.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +13,18 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
-from grainmodes.figures.shared import appearance
-from grainmodes.figures.shared.field_rows import joined
-from grainmodes.figures.shared.release_rows import AFTER, BEFORE, Sample, caption, mark_moments, one
-from grainmodes.figures.shared.release_rows import COLUMNS as RUN
+from grainmodes.figures.shared import labels
+from grainmodes.figures.shared.appearance import AFTER, BEFORE
+from grainmodes.figures.shared.release_rows import (
+    END_TIME,
+    RUN,
+    SECOND_TIME,
+    ReleasedSample,
+    mark_end_and_second,
+    one_released_sample,
+    release_caption,
+)
+from grainmodes.figures.shared.sample_files import joined
 from grainmodes.figures.shared.selection import Options
 
 COLUMNS = {
@@ -21,56 +34,61 @@ COLUMNS = {
     "contact_number": ("1", "mean number of contacts of a grain"),
     "sliding": ("1", "contacts at Coulomb's threshold"),
     "z": ("1", "a number of contacts"),
-    "before": ("1", "share of the grains with z contacts at the start"),
-    "after": ("1", "share of the grains with z contacts at the end"),
-    "end_time": ("t_0", "when M leaves its law"),
-    "second_time": ("t_0", "when the second instability begins"),
+    "before": ("1", "fraction of the grains with z contacts at the start"),
+    "after": ("1", "fraction of the grains with z contacts at the end"),
+    **END_TIME,
+    **SECOND_TIME,
 }
 
 
 def table(releases: list[Block], options: Options) -> pd.DataFrame:
-    """The records of the run without damping, then the shares of grains, with `COLUMNS`.
+    """The records of the run without damping, then the fractions of grains, with `COLUMNS`.
 
     Raises:
-        ValueError: no sample has the n, phi, kt or seed asked for.
+        ValueError: no sample has the requested n, phi, kt or seed.
     """
-    return joined((_rows(sample) for sample in one(releases, options)), COLUMNS)
+    return joined((_rows(sample) for sample in one_released_sample(releases, options)), COLUMNS)
 
 
-def _rows(sample: Sample) -> pd.DataFrame:
+def _rows(sample: ReleasedSample) -> pd.DataFrame:
     quantities = {"time": "time", "contact_number": "contact_number", "sliding": "sliding"}
     records = sample.records(quantities).assign(kind="record")
-    z = [sample.of(f"contacts_{side}").astype(int) for side in ("before", "after")]
-    most = max(part.max() for part in z)
-    shares = [np.bincount(part, minlength=most + 1) / len(part) for part in z]
-    grains = {"kind": "grains", "z": np.arange(most + 1), "before": shares[0], "after": shares[1]}
-    rows = pd.concat([records, pd.DataFrame(sample.columns() | grains)], ignore_index=True)
-    return rows.assign(end_time=sample.of("end_time")[0], second_time=sample.of("second_time")[0])
+    before, after = (sample.values(f"contacts_{side}").astype(int) for side in ("before", "after"))
+    largest = max(before.max(), after.max())
+    grains = sample.identity() | {
+        "kind": "grains",
+        "z": np.arange(largest + 1),
+        "before": np.bincount(before, minlength=largest + 1) / len(before),
+        "after": np.bincount(after, minlength=largest + 1) / len(after),
+    }
+    rows = pd.concat([records, pd.DataFrame(grains)], ignore_index=True)
+    return rows.assign(end_time=sample.first("end_time"), second_time=sample.first("second_time"))
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """(a) contacts of a grain, (b) sliding contacts against time; (c) shares of grains."""
+    """Draw the three panels."""
     figure.set_size_inches(7.0, 2.7)
-    number, sliding, shares = figure.subplots(1, 3)
+    number, sliding, fractions = figure.subplots(1, 3)
     records, grains = (table[table["kind"] == kind] for kind in ("record", "grains"))
-    for place, (axes, column, label) in enumerate(
-        (
-            (number, "contact_number", "contacts of a grain"),
-            (sliding, "sliding", "sliding contacts"),
-        )
-    ):
-        axes.plot(records["time"], records[column], ".", color="k", ms=1.2)
-        mark_moments(axes, records, label=place == 0)
-        axes.set(xlabel="$t / t_0$", ylabel=label)
-        appearance.name_panel(axes, place, ("contacts", "at the threshold")[place])
+    _draw_records(number, 0, records, "contact_number", "contacts of a grain", "contacts")
+    _draw_records(sliding, 1, records, "sliding", "sliding contacts", "at the threshold")
     number.legend(loc="lower left")
-    _shares(shares, grains)
-    figure.suptitle(caption(table))
+    _draw_fractions(fractions, grains)
+    figure.suptitle(release_caption(table))
 
 
-def _shares(axes: Axes, grains: pd.DataFrame) -> None:
+def _draw_records(
+    axes: Axes, index: int, records: pd.DataFrame, column: str, label: str, title: str
+) -> None:
+    axes.plot(records["time"], records[column], ".", color="k", ms=1.2)
+    mark_end_and_second(axes, records, in_legend=index == 0)
+    axes.set(xlabel="$t / t_0$", ylabel=label)
+    labels.name_panel(axes, index, title)
+
+
+def _draw_fractions(axes: Axes, grains: pd.DataFrame) -> None:
     for side, colour, marker in (("before", BEFORE, "s"), ("after", AFTER, "o")):
         axes.plot(grains["z"], grains[side], f"{marker}-", color=colour, mfc="none", label=side)
     axes.set(xlabel="$z$", ylabel="$P(z)$")
-    appearance.name_panel(axes, 2, "grains with $z$ contacts")
+    labels.name_panel(axes, 2, "grains with $z$ contacts")
     axes.legend(loc="best")

@@ -1,4 +1,8 @@
-"""The same state released under dampings around its growth rate (C, Fig. 11)."""
+"""The same unstable state released under dampings η_0 around its growth rate: C, Fig. 11.
+
+(a) mean square displacement M, C (29), and (b) pressure against ω_i t, a colour per η_0. (c) growth
+rates fitted to M (circles; crosses where M does not grow) and linear theory, ω_i − η_0/2.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +12,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
-from grainmodes.figures.shared import appearance
-from grainmodes.figures.shared.field_rows import joined
-from grainmodes.figures.shared.release_rows import COLUMNS as RUN
-from grainmodes.figures.shared.release_rows import Sample, caption, one
+from grainmodes.figures.shared import appearance, labels
+from grainmodes.figures.shared.release_rows import (
+    RUN,
+    ReleasedSample,
+    one_released_sample,
+    release_caption,
+)
+from grainmodes.figures.shared.sample_files import joined
 from grainmodes.figures.shared.selection import Options
 
 COLUMNS = {
@@ -28,51 +36,52 @@ def table(releases: list[Block], options: Options) -> pd.DataFrame:
     """The records of every run of a sample, with the columns `COLUMNS`.
 
     Raises:
-        ValueError: no sample has the n, phi, kt or seed asked for.
+        ValueError: no sample has the requested n, phi, kt or seed.
     """
-    shown = one(releases, options)
-    return joined((part for sample in shown for part in _runs(sample)), COLUMNS)
+    shown = one_released_sample(releases, options)
+    return joined((rows for sample in shown for rows in _rows_of_runs(sample)), COLUMNS)
 
 
-def _runs(sample: Sample) -> list[pd.DataFrame]:
+def _rows_of_runs(sample: ReleasedSample) -> list[pd.DataFrame]:
     quantities = {"time": "time", "m": "mean_square_displacement", "pressure": "pressure"}
     return [
         sample.records(quantities, run).assign(
-            rate_damped=sample.of("rate_damped")[run],
-            rate_fitted=sample.of("displacement_rate")[run],
+            rate_damped=sample.values("rate_damped")[run],
+            rate_fitted=sample.values("displacement_rate")[run],
         )
-        for run in range(len(sample.of("damping")))
+        for run in range(len(sample.values("damping")))
     ]
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """(a) M and (b) P against ω_i t, a curve per η_0; (c) the growth rates."""
+    """Draw the three panels."""
     figure.set_size_inches(7.0, 2.8)
     square, pressure, rates = figure.subplots(1, 3)
     rate = table["rate"].iloc[0]
-    for damping, colour, _ in appearance.series(sorted(table["damping"].unique())):
-        of = table[(table["damping"] == damping) & (table["time"] > 0.0)]
+    for damping, colour, _ in appearance.curve_styles(sorted(table["damping"].unique())):
+        run = table[(table["damping"] == damping) & (table["time"] > 0.0)]
         label = f"{float(f'{damping / rate:.3g}'):g}"
-        square.semilogy(rate * of["time"], of["m"], color=colour, lw=0.7, label=label)
-        pressure.plot(rate * of["time"], of["pressure"], color=colour, lw=0.7)
+        square.semilogy(rate * run["time"], run["m"], color=colour, lw=0.7, label=label)
+        pressure.plot(rate * run["time"], run["pressure"], color=colour, lw=0.7)
     square.legend(title=r"$\eta_0 / \omega_i$", loc="upper left")
     square.set(xscale="log", xlabel=r"$\omega_i t$", ylabel="$M / d^2$")
-    label = appearance.modulus_label("$P$", table)
+    label = labels.modulus_label("$P$", table)
     pressure.set(xscale="log", xlabel=r"$\omega_i t$", ylabel=label)
-    _rates(rates, table.drop_duplicates("damping"), rate)
-    for place, name in enumerate(("mean square displacement", "pressure", "growth rate")):
-        appearance.name_panel((square, pressure, rates)[place], place, name)
-    figure.suptitle(caption(table))
+    _draw_rates(rates, table.drop_duplicates("damping"), rate)
+    labels.name_panel(square, 0, "mean square displacement")
+    labels.name_panel(pressure, 1, "pressure")
+    labels.name_panel(rates, 2, "growth rate")
+    figure.suptitle(release_caption(table))
 
 
-def _rates(axes: Axes, runs: pd.DataFrame, rate: float) -> None:
-    """Fitted rates on the line ω_i − η_0/2; runs that do not grow on the axis, as crosses."""
+def _draw_rates(axes: Axes, runs: pd.DataFrame, rate: float) -> None:
+    """Draw the fitted rates on the line of linear theory; runs without growth on the axis."""
     line = np.linspace(0.0, 4.0, 50)
     axes.plot(line, 1.0 - 0.5 * line, color=appearance.TRANSLATIONAL, label="linear theory")
-    near = runs[runs["damping"] < 4.01 * rate]
-    axes.plot(near["damping"] / rate, near["rate_fitted"] / rate, "ko", mfc="none", label="fit")
-    dead = near[near["rate_fitted"].isna()]
-    axes.plot(dead["damping"] / rate, 0.0 * dead["damping"], "kx", label="no growth")
+    shown = runs[runs["damping"] < 4.01 * rate]
+    axes.plot(shown["damping"] / rate, shown["rate_fitted"] / rate, "ko", mfc="none", label="fit")
+    decaying = shown[shown["rate_fitted"].isna()]
+    axes.plot(decaying["damping"] / rate, 0.0 * decaying["damping"], "kx", label="no growth")
     axes.axhline(0.0, color="0.6", lw=0.6)
     axes.set(xlabel=r"$\eta_0 / \omega_i$", ylabel=r"growth rate / $\omega_i$", ylim=(-0.6, 1.15))
     axes.legend(loc="upper right")

@@ -1,4 +1,9 @@
-"""What becomes of released states: M, pressure and shear stress over all times (C, Fig. 7)."""
+"""What becomes of released states over all times: C, Fig. 7.
+
+(a) mean square displacement M, C (29), (b) pressure P and (c) shear stress σ_xy against time, a
+colour per sample, named by its ω_i. (d) |P − P(0)| / P(0) of the first sample against ω_i t while M
+grows: dots with the line e^(ω_i t) through their largest value in the linear range.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +13,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
-from grainmodes.figures.shared import appearance
-from grainmodes.figures.shared.field_rows import joined
-from grainmodes.figures.shared.release_rows import COLUMNS as RUN
-from grainmodes.figures.shared.release_rows import growing, samples
-from grainmodes.figures.shared.selection import MOST_CURVES, Options
+from grainmodes.figures.shared import appearance, labels
+from grainmodes.figures.shared.release_rows import (
+    END_TIME,
+    RUN,
+    growing_records,
+    released_samples,
+)
+from grainmodes.figures.shared.sample_files import joined
+from grainmodes.figures.shared.selection import MAX_CURVES, Options
 from grainmodes.parameters.release import GROWTH_RANGE
 
 QUANTITIES = {
@@ -28,7 +37,7 @@ COLUMNS = {
     "m": ("d^2", "mean square displacement M"),
     "pressure": ("k_N", "pressure"),
     "stress_xy": ("k_N", "stress sigma_xy"),
-    "end_time": ("t_0", "when M leaves its law"),
+    **END_TIME,
 }
 
 
@@ -36,50 +45,48 @@ def table(releases: list[Block], options: Options) -> pd.DataFrame:
     """The records of the runs without damping, sample by sample, with the columns `COLUMNS`.
 
     Raises:
-        ValueError: no sample has the n, phi or kt asked for.
+        ValueError: no sample has the requested n, phi or kt.
     """
-    shown = samples(releases, options)[:MOST_CURVES]
-    return joined(
-        (sample.records(QUANTITIES).assign(end_time=sample.of("end_time")[0]) for sample in shown),
-        COLUMNS,
+    shown = released_samples(releases, options)[:MAX_CURVES]
+    parts = (
+        sample.records(QUANTITIES).assign(end_time=sample.first("end_time")) for sample in shown
     )
+    return joined(parts, COLUMNS)
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """(a) M, (b) P, (c) σ_xy, a curve per sample; (d) P − P(0) of the first while it grows."""
+    """Draw the four panels."""
     figure.set_size_inches(7.0, 5.2)
     panels = figure.subplots(2, 2).ravel()
-    rates = sorted(table["rate"].unique(), reverse=True)
-    for rate, colour, _ in appearance.series(rates):
-        of = table[(table["rate"] == rate) & (table["time"] > 0.0)]
-        label = rf"$\omega_i = {appearance.power(float(f'{rate:.2g}'))}$"
-        for axes, column in zip(panels, ("m", "pressure", "stress_xy"), strict=False):
-            axes.plot(of["time"], of[column], color=colour, lw=0.7, label=label)
-    labels = (
-        "$M / d^2$",
-        appearance.modulus_label("$P$", table),
-        appearance.modulus_label(r"$\sigma_{xy}$", table),
+    pressure, stress = (labels.modulus_label(symbol, table) for symbol in ("$P$", r"$\sigma_{xy}$"))
+    shown = (
+        (panels[0], "m", "$M / d^2$", "mean square displacement"),
+        (panels[1], "pressure", pressure, "pressure"),
+        (panels[2], "stress_xy", stress, "shear stress"),
     )
-    titles = ("mean square displacement", "pressure", "shear stress")
-    for place, (axes, label, title) in enumerate(zip(panels, labels, titles, strict=False)):
+    for rate, colour, _ in appearance.curve_styles(sorted(table["rate"].unique(), reverse=True)):
+        run = table[(table["rate"] == rate) & (table["time"] > 0.0)]
+        name = rf"$\omega_i = {labels.power(rate, 2)}$"
+        for axes, column, _, _ in shown:
+            axes.plot(run["time"], run[column], color=colour, lw=0.7, label=name)
+    for index, (axes, _, label, title) in enumerate(shown):
         axes.set(xscale="log", xlabel="$t / t_0$", ylabel=label)
-        appearance.name_panel(axes, place, title)
+        labels.name_panel(axes, index, title)
     panels[0].set_yscale("log")
     panels[0].legend(loc="upper left")
     panels[2].axhline(0.0, color="0.6", lw=0.6)
-    first = table[table["seed"] == table["seed"].iloc[0]]
-    _growing(panels[3], first)
-    constants = [appearance.CONSTANTS[name](table[name].iloc[0]) for name in ("n", "phi", "kt")]
-    figure.suptitle(", ".join([*constants, appearance.samples([table["seed"].nunique()])]))
+    _draw_growth(panels[3], table[table["seed"] == table["seed"].iloc[0]])
+    samples = labels.count_samples([table["seed"].nunique()])
+    figure.suptitle(", ".join([*labels.constants(table), samples]))
 
 
-def _growing(axes: Axes, of: pd.DataFrame) -> None:
-    """|P − P(0)| against ω_i t until a little after the growth, and e^(ω_i t) on its peaks."""
-    of = growing(of)
-    time, start = of["rate"] * of["time"], of["pressure"].iloc[0]
-    change = (of["pressure"] - start).abs() / start
+def _draw_growth(axes: Axes, records: pd.DataFrame) -> None:
+    """Draw |P − P(0)| / P(0) until a little after the end of the growth, and e^(ω_i t)."""
+    records = growing_records(records)
+    time, start = records["rate"] * records["time"], records["pressure"].iloc[0]
+    change = (records["pressure"] - start).abs() / start
     axes.semilogy(time, change, ".", color="k", ms=1.6)
-    peak = change[of["m"] < GROWTH_RANGE[1]].idxmax()
+    peak = change[records["m"] < GROWTH_RANGE[1]].idxmax()
     line = change[peak] * np.exp(time - time[peak])
     axes.semilogy(time, line, color=appearance.TRANSLATIONAL, label=r"$e^{\omega_i t}$")
     axes.set(
@@ -87,5 +94,5 @@ def _growing(axes: Axes, of: pd.DataFrame) -> None:
         ylabel="$|P - P(0)| / P(0)$",
         ylim=(change[change > 0.0].min(), 10.0 * change.max()),
     )
-    appearance.name_panel(axes, 3, f"pressure while it grows, seed {of['seed'].iloc[0]}")
+    labels.name_panel(axes, 3, f"pressure while it grows, seed {records['seed'].iloc[0]}")
     axes.legend(loc="upper left")

@@ -1,7 +1,11 @@
-"""Trajectories of the grains while a released pair grows: spirals (C, Fig. 5).
+"""Trajectories of the grains while a released pair grows are spirals, C (13), (28): C, Fig. 5.
 
-The frames of the film lie many turns and a part of one apart where ω_i is much smaller than ω_r:
-turns so many that they would fill the ellipses between them are left out.
+Left all grains, as circles at the start, with their trajectories; right three trajectories that
+enclose the largest area. Lines go from light to dark in time, and displacements are drawn larger
+than they are, by the factor of the caption.
+
+Where ω_i is much smaller than ω_r, the frames of the film lie many turns and a part of a turn
+apart: all turns between them would fill the ellipses, and are left out.
 """
 
 from __future__ import annotations
@@ -13,21 +17,37 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
-from grainmodes.figures.shared import appearance
-from grainmodes.figures.shared.field_rows import GRAINS, joined
-from grainmodes.figures.shared.grain_maps import OUTLINED, draw_discs, rounded
-from grainmodes.figures.shared.release_rows import COLUMNS as RUN
-from grainmodes.figures.shared.release_rows import Sample, caption, one
+from grainmodes.figures.shared import labels
+from grainmodes.figures.shared.grain_maps import (
+    MAX_OUTLINED_GRAINS,
+    draw_discs,
+    frame_box,
+    one_digit,
+)
+from grainmodes.figures.shared.grain_rows import GRAINS
+from grainmodes.figures.shared.release_rows import (
+    RUN,
+    ReleasedSample,
+    one_released_sample,
+    release_caption,
+)
+from grainmodes.figures.shared.sample_files import joined
 from grainmodes.figures.shared.selection import Options
 
-REACH = 0.4
-"""Length, in d, of the longest displacements of most grains as they are drawn."""
+DRAWN_LENGTH = 0.4
+"""Length, in d, at which the longest displacements of most grains are drawn."""
+
+CLOSE_UPS = 3
+"""Number of grains that are shown in panels of their own."""
+
+START_VARIABLES = ("position", "diameter", "box_length", "strain")
+"""Variables of the state that was released."""
 
 COLUMNS = {
     **{name: RUN[name] for name in ("n", "phi", "kt", "seed", "rate", "frequency")},
     **{name: GRAINS[name] for name in ("box_length", "strain", "grain", "diameter")},
-    "x": ("d", "place of the grain at the start"),
-    "y": ("d", "place of the grain at the start"),
+    "x": ("d", "x of the grain at the start"),
+    "y": ("d", "y of the grain at the start"),
     "time": ("t_0", "time of a frame"),
     "dx": ("d", "displacement since the start"),
     "dy": ("d", "displacement since the start"),
@@ -39,92 +59,86 @@ def table(releases: list[Block], options: Options) -> pd.DataFrame:
     """A row per frame and grain, with the columns `COLUMNS`.
 
     Raises:
-        ValueError: no sample has the n, phi, kt or seed asked for.
+        ValueError: no sample has the requested n, phi, kt or seed.
     """
-    shown = [sample for sample in one(releases, options) if len(sample.of("film"))]
+    found = one_released_sample(releases, options)
+    shown = [sample for sample in found if len(sample.values("film"))]
     return joined((_rows(sample) for sample in shown), COLUMNS)
 
 
-def _rows(sample: Sample) -> pd.DataFrame:
-    film = sample.of("film")[:, :, :2]
+def _rows(sample: ReleasedSample) -> pd.DataFrame:
+    film = sample.values("film")[:, :, :2]
     frames, n = film.shape[:2]
-    place = {name: sample.block.variables[name][sample.row] for name in STILL}
+    start = {name: sample.block.variables[name][sample.row] for name in START_VARIABLES}
     longest = np.quantile(np.hypot(*film.T).max(axis=1), 0.95)
     return pd.DataFrame(
         {
-            **sample.columns(),
-            **{name: place[name] for name in ("box_length", "strain")},
+            **sample.identity(),
+            **{name: start[name] for name in ("box_length", "strain")},
             "grain": np.tile(np.arange(n), frames),
-            "diameter": np.tile(place["diameter"], frames),
-            "x": np.tile(place["position"][:, 0], frames),
-            "y": np.tile(place["position"][:, 1], frames),
-            "time": np.repeat(sample.of("frame_time"), n),
+            "diameter": np.tile(start["diameter"], frames),
+            "x": np.tile(start["position"][:, 0], frames),
+            "y": np.tile(start["position"][:, 1], frames),
+            "time": np.repeat(sample.values("frame_time"), n),
             "dx": film[:, :, 0].ravel(),
             "dy": film[:, :, 1].ravel(),
-            "factor": rounded(REACH / longest),
+            "factor": one_digit(DRAWN_LENGTH / longest),
         }
     )
 
 
-STILL = ("position", "diameter", "box_length", "strain")
-"""Variables of the state that was released."""
-
-
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Every grain with its trajectory, from light to dark; beside it those most open."""
+    """Draw every grain with its trajectory, and beside it the most open trajectories."""
     figure.set_size_inches(7.0, 4.9)
     figure.set_layout_engine("compressed")
-    whole, near = figure.subfigures(1, 2, width_ratios=(2.1, 1.0))
+    whole, close_ups = figure.subfigures(1, 2, width_ratios=(2.1, 1.0))
     paths = trajectories(table)
     axes = whole.subplots()
-    ground(axes, table)
+    draw_grains_at_start(axes, table)
     add_paths(axes, paths)
-    for axes, grain in zip(near.subplots(CLOSE, 1), _most_open(paths), strict=True):
-        path = paths[:, grain : grain + 1]
-        add_paths(axes, path, lw=0.8)
-        middle, half = path.mean(axis=(0, 1)), 0.55 * np.ptp(path, axis=0).max()
-        axes.set(xlim=middle[0] + half * SIDES, ylim=middle[1] + half * SIDES, aspect="equal")
-        axes.set(xticks=[], yticks=[], title=f"grain {grain}")
-    factor = appearance.power(table["factor"].iloc[0])
+    for axes, grain in zip(close_ups.subplots(CLOSE_UPS, 1), _most_open(paths), strict=True):
+        _draw_close_up(axes, paths[:, grain : grain + 1])
+        axes.set_title(f"grain {grain}")
+    factor = labels.power(table["factor"].iloc[0])
     note = rf"displacements drawn ${factor}$ times as long; time: light to dark"
-    figure.suptitle(f"{caption(table)}\n{note}")
+    figure.suptitle(f"{release_caption(table)}\n{note}")
 
 
-CLOSE = 3
-"""Grains that are shown closely."""
-
-SIDES = np.array([-1.0, 1.0])
+def _draw_close_up(axes: Axes, path: np.ndarray) -> None:
+    add_paths(axes, path, lw=0.8)
+    sides = np.array([-1.0, 1.0])
+    middle, half = path.mean(axis=(0, 1)), 0.55 * np.ptp(path, axis=0).max()
+    axes.set(xlim=middle[0] + half * sides, ylim=middle[1] + half * sides, aspect="equal")
+    axes.set(xticks=[], yticks=[])
 
 
 def _most_open(paths: np.ndarray) -> np.ndarray:
-    """The grains whose trajectories sweep most area: (CLOSE,)."""
+    """The grains whose trajectories enclose the largest area: (CLOSE_UPS,)."""
     moved = paths - paths[:1]
     step = np.diff(moved, axis=0)
     area = moved[:-1, :, 0] * step[:, :, 1] - moved[:-1, :, 1] * step[:, :, 0]
-    return np.argsort(-np.abs(area.sum(axis=0)))[:CLOSE]
+    return np.argsort(-np.abs(area.sum(axis=0)))[:CLOSE_UPS]
 
 
 def add_paths(axes: Axes, paths: np.ndarray, lw: float = 0.5) -> LineCollection:
-    """Trajectories (frame, grain, 2) as lines from light to dark; returned to be changed."""
+    """Draw trajectories (frame, grain, 2) as lines from light to dark; returns these lines."""
     segments = np.stack([paths[:-1], paths[1:]], axis=2)
     shades = np.repeat(np.linspace(0.0, 1.0, len(segments)), paths.shape[1])
     lines = LineCollection(segments.reshape(-1, 2, 2), array=shades, cmap="viridis_r", lw=lw)
     lines.set_clim(0.0, 1.0)
-    lines.set_rasterized(paths.shape[1] > OUTLINED // 4)
+    lines.set_rasterized(paths.shape[1] > MAX_OUTLINED_GRAINS // 4)
     axes.add_collection(lines)
     return lines
 
 
-def ground(axes: Axes, table: pd.DataFrame) -> None:
-    """The grains at the start, as empty circles in their box."""
-    still = table.drop_duplicates("grain")
-    length = still["box_length"].iloc[0]
-    draw_discs(axes, still, np.full(len(still), np.nan), 1.0)
-    axes.set(xlim=(0.0, length), ylim=(0.0, length), aspect="equal", xlabel="$x/d$", ylabel="$y/d$")
-    axes.tick_params(direction="out", top=False, right=False, which="both")
+def draw_grains_at_start(axes: Axes, table: pd.DataFrame) -> None:
+    """Draw the grains at the start, as empty circles in their box."""
+    start = table.drop_duplicates("grain")
+    draw_discs(axes, start, np.full(len(start), np.nan), 1.0)
+    frame_box(axes, start)
 
 
 def trajectories(table: pd.DataFrame) -> np.ndarray:
-    """Places to draw, (frame, grain, 2)."""
+    """Positions to draw, (frame, grain, 2), in d."""
     moved = table[["dx", "dy"]].to_numpy() * table[["factor"]].to_numpy()
     return (table[["x", "y"]].to_numpy() + moved).reshape(-1, table["grain"].nunique(), 2)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pandas as pd
 
 from grainmodes.dataset.files import Block
-from grainmodes.figures.shared.event_detail_rows import critical_strain, with_event
-from grainmodes.figures.shared.field_rows import GRAINS, components, grains, joined
+from grainmodes.figures.shared.event_rows import critical_strain, sample_with
+from grainmodes.figures.shared.grain_rows import GRAINS, field_values, grain_rows
+from grainmodes.figures.shared.sample_files import joined
 from grainmodes.figures.shared.selection import Options
 
 PAPER_N = 1024
@@ -15,32 +18,32 @@ COLUMNS = GRAINS | {"critical_strain": ("1", "strain of the event")}
 """Columns that stand before those of the fields."""
 
 
-def rows(
+def event_field_rows(
     event_details: list[Block],
     options: Options,
     variables: dict[str, str],
     columns: dict,
-    **scalars,
+    **scalars: Callable[[Block], float],
 ) -> pd.DataFrame:
-    """Every grain of the sample shown, where it is just after the event, with these columns.
+    """Every grain of the sample shown, at its place just after the event, with these columns.
 
     Args:
         variables: prefix of the columns of a field → its variable.
-        scalars: column → what it is of a block.
+        scalars: column → function that finds its one value in the block.
 
     Raises:
-        ValueError: no sample has the n, phi or kt asked for.
+        ValueError: no sample has the requested n, phi or kt.
     """
     parts = []
-    for block in with_event(event_details, options, PAPER_N):
-        found = grains(block).assign(critical_strain=critical_strain(block))
+    for block in sample_with("event_count", event_details, options, PAPER_N):
+        rows = grain_rows(block).assign(critical_strain=critical_strain(block))
         for prefix, name in variables.items():
-            field = block.variables[name][0]
-            found = found.assign(**components(prefix, field.reshape(-1, 3)))
-        parts.append(found.assign(**{name: of(block) for name, of in scalars.items()}))
+            field = block.variables[name][0].reshape(-1, 3)
+            rows = rows.assign(**field_values(prefix, field))
+        parts.append(rows.assign(**{name: find(block) for name, find in scalars.items()}))
     return joined(parts, columns)
 
 
-def at_event(table: pd.DataFrame) -> str:
-    """The strain of the event, in words of a caption."""
+def event_strain_label(table: pd.DataFrame) -> str:
+    """The strain of the event, as a formula of a caption."""
     return rf"$\gamma_c = {table['critical_strain'].iloc[0]:.6g}$"

@@ -1,7 +1,7 @@
 """Maps of a packing: grains as circles in their periodic box, (x, y) as arrows, ℓ as colour.
 
-A map draws rows with the columns `field_rows.GRAINS` and one field, the columns `prefix`_x,
-`prefix`_y and `prefix`_rotation. A grain without numbers, a rattler, is an empty circle.
+A map draws rows with the columns `grain_rows.GRAINS` and the columns `prefix`_x, `prefix`_y and
+`prefix`_rotation of one field. A grain without numbers, which is a rattler, is an empty circle.
 """
 
 from __future__ import annotations
@@ -19,22 +19,26 @@ from matplotlib.collections import EllipseCollection
 from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
 
-from grainmodes.figures.shared import appearance
-from grainmodes.figures.shared.field_rows import COMPONENTS
+from grainmodes.figures.shared import labels
+from grainmodes.figures.shared.grain_rows import COMPONENTS
 
 COLOURS = matplotlib.colors.LinearSegmentedColormap.from_list(
     "rotation", matplotlib.colormaps["RdBu_r"](np.linspace(0.1, 0.9, 256))
 )
 """Red turns counter-clockwise; the dark ends are cut off, so that black arrows stay visible."""
 
-OUTLINED = 1100
-"""Grains up to which circles have outlines and are vectors; more would be grey, and megabytes."""
+MAX_OUTLINED_GRAINS = 1100
+"""Number of grains up to which circles have outlines and are vectors; the outlines of more grains
+would make the map grey, and the file megabytes large."""
 
 
 class Scale(NamedTuple):
-    """Length in d of an arrow of size 1, size of the arrow shown as key, end of the colours.
+    """How a map translates a field.
 
-    `limit` is 0 where nothing turns.
+    Attributes:
+        length: length in d of an arrow of size 1.
+        key: size of the arrow that is shown as key.
+        limit: rotation at the ends of the colours; 0 where nothing turns.
     """
 
     length: float
@@ -42,69 +46,75 @@ class Scale(NamedTuple):
     limit: float
 
     @classmethod
-    def of(cls, table: pd.DataFrame, prefixes: tuple[str, ...], arrow: float) -> Scale:
-        """The scale on which 19 of 20 arrows are shorter than `arrow`, in d."""
+    def from_fields(cls, table: pd.DataFrame, prefixes: tuple[str, ...], arrow: float) -> Scale:
+        """The scale on which 19 of 20 arrows of these fields are shorter than `arrow`, in d."""
         x, y, rotation = (
             np.concatenate([table[f"{prefix}_{name}"] for prefix in prefixes])
             for name in COMPONENTS
         )
         typical = np.nanquantile(np.hypot(x, y), 0.95)
         limit = np.quantile(np.nan_to_num(np.abs(rotation)), 0.99)
-        return cls(arrow / typical, rounded(typical), rounded(limit))
+        return cls(arrow / typical, one_digit(typical), one_digit(limit))
 
 
-def rounded(value: float) -> float:
-    """The number of one digit nearest to a value that is not negative: 0.0437 → 0.04."""
+def one_digit(value: float) -> float:
+    """A value that is not negative, rounded to one significant digit: 0.0437 → 0.04."""
     if value == 0.0:
         return 0.0
     decade = 10.0 ** math.floor(math.log10(value))
     return round(value / decade) * decade
 
 
-def draw_map(axes: Axes, of: pd.DataFrame, prefix: str, scale: Scale) -> Quiver:
-    """Grains, colours, arrows and the box; returns the arrows, for `add_key`."""
-    length = of["box_length"].iloc[0]
-    draw_discs(axes, of, of[f"{prefix}_rotation"].to_numpy(), scale.limit)
+def draw_map(axes: Axes, grains: pd.DataFrame, prefix: str, scale: Scale) -> Quiver:
+    """Draw grains, colours, arrows and the box; returns the arrows, for `add_key`."""
+    draw_discs(axes, grains, grains[f"{prefix}_rotation"].to_numpy(), scale.limit)
     arrows = axes.quiver(
-        *(of[name] for name in ("x", "y", f"{prefix}_x", f"{prefix}_y")),
+        *(grains[name] for name in ("x", "y", f"{prefix}_x", f"{prefix}_y")),
         pivot="mid",
         angles="xy",
         scale_units="xy",
         scale=1.0 / scale.length,
         units="inches",
-        width=0.05 / math.sqrt(length),
+        width=0.05 / math.sqrt(grains["box_length"].iloc[0]),
         headwidth=3.2,
         headlength=3.6,
         headaxislength=3.2,
         minlength=0.0,
-        rasterized=len(of) > OUTLINED,
+        rasterized=len(grains) > MAX_OUTLINED_GRAINS,
     )
-    axes.set(xlim=(0.0, length), ylim=(0.0, length), aspect="equal", xlabel="$x/d$", ylabel="$y/d$")
-    axes.tick_params(direction="out", top=False, right=False, which="both")
+    frame_box(axes, grains)
     return arrows
 
 
+def frame_box(axes: Axes, grains: pd.DataFrame) -> None:
+    """Let the axes be the frame of the box."""
+    length = grains["box_length"].iloc[0]
+    axes.set(xlim=(0.0, length), ylim=(0.0, length), aspect="equal", xlabel="$x/d$", ylabel="$y/d$")
+    axes.tick_params(direction="out", top=False, right=False, which="both")
+
+
 def add_key(axes: Axes, arrows: Quiver, scale: Scale, unit: str) -> None:
-    """An arrow and its size above the right corner of a map."""
+    """Draw an arrow and its size above the right corner of a map."""
     label = f"{scale.key:g}{unit}"
     axes.quiverkey(arrows, 0.86, 1.05, scale.key, label, labelpos="E", labelsep=0.05)
 
 
-def draw_discs(axes: Axes, of: pd.DataFrame, rotation: np.ndarray, limit: float) -> None:
-    """Every grain as a circle of its colour, and its images that reach into the box.
+def draw_discs(axes: Axes, grains: pd.DataFrame, rotation: np.ndarray, limit: float) -> None:
+    """Draw every grain as a circle of its colour, and its images that reach into the box.
 
     A rotation of NaN leaves the circle empty.
     """
-    faces = COLOURS(_norm(limit)(rotation))  # NaN is transparent
-    place, grain = _with_images(of)
-    diameter, outlined = of["diameter"].to_numpy()[grain], len(of) <= OUTLINED
+    faces = COLOURS(_colour_range(limit)(rotation))  # NaN is transparent
+    centre, grain = _with_images(grains)
+    diameter = grains["diameter"].to_numpy()[grain]
+    outlined = len(grains) <= MAX_OUTLINED_GRAINS
     axes.add_collection(
         EllipseCollection(
             diameter,
             diameter,
             np.zeros(len(grain)),
             units="xy",
-            offsets=place,
+            offsets=centre,
             offset_transform=axes.transData,
             facecolors=faces[grain],
             edgecolors="0.45" if outlined else "none",
@@ -114,37 +124,38 @@ def draw_discs(axes: Axes, of: pd.DataFrame, rotation: np.ndarray, limit: float)
     )
 
 
-def _with_images(of: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
-    """Places (M, 2) of all grains and images that touch the box, and the row of each (M,)."""
-    length, strain = of["box_length"].iloc[0], of["strain"].iloc[0]
-    shift = [((a + strain * b) * length, b * length) for a, b in product((0, -1, 1), repeat=2)]
-    place = np.concatenate([of[["x", "y"]].to_numpy() + step for step in shift])
-    grain = np.tile(np.arange(len(of)), len(shift))
-    reach = of["diameter"].to_numpy()[grain, None] / 2
-    inside = ((place > -reach) & (place < length + reach)).all(axis=1)
-    return place[inside], grain[inside]
+def _with_images(grains: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
+    """Centres (M, 2) of all grains and images that touch the box, and the row of each (M,)."""
+    length, strain = grains["box_length"].iloc[0], grains["strain"].iloc[0]
+    shifts = [((a + strain * b) * length, b * length) for a, b in product((0, -1, 1), repeat=2)]
+    centre = np.concatenate([grains[["x", "y"]].to_numpy() + shift for shift in shifts])
+    grain = np.tile(np.arange(len(grains)), len(shifts))
+    radius = grains["diameter"].to_numpy()[grain, None] / 2
+    inside = ((centre > -radius) & (centre < length + radius)).all(axis=1)
+    return centre[inside], grain[inside]
 
 
 def add_colour_bar(figure: Figure, panels: list[Axes], scale: Scale, label: str, **place) -> None:
-    """The colour bar of some panels; pointed, as a few rotations lie beyond its ends."""
+    """Add the colour bar of some panels; its ends are pointed, as a few rotations lie beyond."""
     if scale.limit == 0.0:
         return
-    colours = ScalarMappable(_norm(scale.limit), COLOURS)
+    colours = ScalarMappable(_colour_range(scale.limit), COLOURS)
     figure.colorbar(colours, ax=panels, label=label, extend="both", pad=0.02, **place)
 
 
-def _norm(limit: float) -> matplotlib.colors.Normalize:
+def _colour_range(limit: float) -> matplotlib.colors.Normalize:
     """Symmetric about 0, with any ends where nothing turns."""
     return matplotlib.colors.Normalize(-(limit or 1.0), limit or 1.0)
 
 
-def write_caption(figure: Figure, table: pd.DataFrame, note: str) -> None:
-    """Which sample is shown, and how its arrows are to be read, above the figure."""
-    n, seed = table["n"].iloc[0], table["seed"].iloc[0]
-    parts = [rf"$N = {n}$", rf"$\phi = {appearance.fraction(table['phi'].iloc[0])}$"]
+def write_map_caption(figure: Figure, table: pd.DataFrame, note: str) -> None:
+    """Write above the figure which sample is shown, and how its arrows are to be read.
+
+    k_T and the size of the step strain are stated where all maps share them.
+    """
+    parts = labels.constants(table, ("n", "phi"))
     for column, symbol in (("kt", "k_T / k_N"), ("strain_step", r"\Delta\gamma")):
         values = table[column].unique() if column in table else []
-        parts += [
-            rf"${symbol} = {appearance.power(value)}$" for value in values if len(values) == 1
-        ]
-    figure.suptitle(f"{', '.join(parts)}, seed {seed}\n{note}")
+        if len(values) == 1:
+            parts.append(rf"${symbol} = {labels.power(values[0])}$")
+    figure.suptitle(f"{', '.join(parts)}, seed {table['seed'].iloc[0]}\n{note}")

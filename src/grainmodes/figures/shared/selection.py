@@ -1,4 +1,4 @@
-"""Which part of an ensemble a figure shows: what is asked for, else the choice of paper A."""
+"""Which part of an ensemble a figure shows: what the study requests, else the choice of paper A."""
 
 from __future__ import annotations
 
@@ -6,22 +6,23 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-PAPER_PANELS = (1e-8, 1e-4, 1.0, 10.0)
+PAPER_PANEL_KTS = (1e-8, 1e-4, 1.0, 10.0)
 """k_T/k_N of the four panels of A, Figs. 8 and 9."""
 
-PAPER_RATTLERS = (1e-8, 1e-4)
+PAPER_RATTLER_KTS = (1e-8, 1e-4)
 """k_T/k_N of the two panels of A, Figs. 13 and 14."""
 
-PAPER_WEAK = 1e-8
+PAPER_WEAK_KT = 1e-8
 """k_T/k_N of A, Figs. 11, 15 and 16."""
 
-MOST_CURVES = 8
-"""Curves that stay apart in one panel; of more values, evenly spread ones are shown."""
+MAX_CURVES = 8
+"""Number of curves that can be told apart in one panel; of more values, evenly spread ones are
+shown."""
 
 
 @dataclass(frozen=True)
 class Options:
-    """What a study may ask of a figure.
+    """What a study may request of a figure.
 
     `n`, `phi`: the value shown by figures that show one; None is the largest of the ensemble.
     `kt`: the values of k_T/k_N to show; None is the figure's own choice.
@@ -58,47 +59,80 @@ class Options:
             )
         return options
 
+    def one_kt(self) -> float | None:
+        """The k_T/k_N of a figure that shows one; None if none is requested.
 
-def largest_or(asked: float | None, values: np.ndarray, name: str) -> float:
-    """The value that is asked for, or the largest.
+        Raises:
+            ValueError: several are requested.
+        """
+        if self.kt is not None and len(self.kt) > 1:
+            raise ValueError(f"kt: expected one value for this figure, got {len(self.kt)}")
+        return self.kt[0] if self.kt else None
+
+
+def largest_or(requested: float | None, values: np.ndarray, name: str) -> float:
+    """The requested value; the largest of `values` where none is requested.
 
     Raises:
-        ValueError: the value asked for is none of `values`, the error calls it `name`.
+        ValueError: the requested value is not one of `values`; the message calls it `name`.
     """
-    return values.max().item() if asked is None else _existing(asked, values, name)
+    return values.max().item() if requested is None else _existing(requested, values, name)
 
 
-def first_or(asked: int | None, values: np.ndarray, name: str) -> int:
-    """The value that is asked for, or the smallest.
+def smallest_or(requested: int | None, values: np.ndarray, name: str) -> int:
+    """The requested value; the smallest of `values` where none is requested.
 
     Raises:
         ValueError: as `largest_or`.
     """
-    return values.min().item() if asked is None else _existing(asked, values, name)
+    return values.min().item() if requested is None else _existing(requested, values, name)
 
 
-def curves(asked: tuple[float, ...] | None, values: np.ndarray, name: str) -> list[float]:
-    """The values asked for, or all of `values`, or evenly spread ones where they are too many."""
-    if asked is not None:
-        return sorted(_existing(value, values, name) for value in asked)
-    places = np.linspace(0, len(values) - 1, min(len(values), MOST_CURVES))
-    return [values[round(place)].item() for place in places]
-
-
-def panels(
-    asked: tuple[float, ...] | None, values: np.ndarray, paper: tuple[float, ...] = PAPER_PANELS
+def choose_curves(
+    requested: tuple[float, ...] | None, values: np.ndarray, name: str
 ) -> list[float]:
-    """k_T/k_N of the panels of a spectral figure: those asked for, A's, or at most as many."""
-    if asked is not None:
-        return curves(asked, values, "kt")
-    found = [kappa for kappa in paper if np.isclose(values, kappa, rtol=1e-9, atol=0).any()]
-    if len(found) == len(paper):
-        return found
-    places = np.linspace(0, len(values) - 1, min(len(values), len(paper)))
-    return [values[round(place)].item() for place in places]
+    """The requested values, else all of `values`, or evenly spread ones if there are too many.
+
+    Raises:
+        ValueError: as `largest_or`.
+    """
+    if requested is not None:
+        return sorted(_existing(value, values, name) for value in requested)
+    return _spread(values, MAX_CURVES)
 
 
-def positive(values: np.ndarray, figure: str) -> np.ndarray:
+def choose_panels(
+    requested: tuple[float, ...] | None,
+    values: np.ndarray,
+    paper: tuple[float, ...] = PAPER_PANEL_KTS,
+) -> list[float]:
+    """k_T/k_N of the panels of a figure of spectra.
+
+    The requested values, else those of the paper if the ensemble has all of them, else as many
+    evenly spread ones.
+
+    Raises:
+        ValueError: as `largest_or`.
+    """
+    if requested is not None:
+        return choose_curves(requested, values, "kt")
+    found = [kt for kt in paper if len(_equal(values, kt))]
+    return found if len(found) == len(paper) else _spread(values, len(paper))
+
+
+def choose_weak(requested: float | None, values: np.ndarray) -> float:
+    """The one k_T/k_N of a figure of weak friction: the requested one, A's, or the smallest.
+
+    Raises:
+        ValueError: as `largest_or`.
+    """
+    if requested is not None:
+        return _existing(requested, values, "kt")
+    paper = _equal(values, PAPER_WEAK_KT)
+    return (paper if len(paper) else values)[0].item()
+
+
+def positive_kts(values: np.ndarray, figure: str) -> np.ndarray:
     """The values of k_T/k_N that a logarithmic axis can show.
 
     Raises:
@@ -109,23 +143,20 @@ def positive(values: np.ndarray, figure: str) -> np.ndarray:
     return values[values > 0]
 
 
-def weak(asked: tuple[float, ...] | None, values: np.ndarray) -> float:
-    """The one k_T/k_N of a figure of weak friction: the one asked for, A's, or the smallest.
-
-    Raises:
-        ValueError: several are asked for, or one that is none of `values`.
-    """
-    if asked is not None and len(asked) > 1:
-        raise ValueError(f"kt: expected one value for this figure, got {len(asked)}")
-    paper = values[np.isclose(values, PAPER_WEAK, rtol=1e-9, atol=0)]
-    default = (paper if len(paper) else values)[0].item()
-    return default if asked is None else _existing(asked[0], values, "kt")
-
-
-def _existing(asked: float, values: np.ndarray, name: str) -> float:
-    found = values[np.isclose(values, asked, rtol=1e-9, atol=0)]
+def _existing(requested: float, values: np.ndarray, name: str) -> float:
+    found = _equal(values, requested)
     if not len(found):
-        raise ValueError(
-            f"{name}: expected one of {', '.join(map(str, values))} in this ensemble, got {asked}"
-        )
+        existing = ", ".join(map(str, values))
+        raise ValueError(f"{name}: expected one of {existing} in this ensemble, got {requested}")
     return found[0].item()
+
+
+def _equal(values: np.ndarray, value: float) -> np.ndarray:
+    """Those of the values that equal this one to rounding."""
+    return values[np.isclose(values, value, rtol=1e-9, atol=0)]
+
+
+def _spread(values: np.ndarray, most: int) -> list[float]:
+    """All values, or so many evenly spread ones."""
+    places = np.linspace(0, len(values) - 1, min(len(values), most))
+    return [values[round(place)].item() for place in places]

@@ -1,7 +1,7 @@
 """Rows of the figures of the spectrum: one per bin of frequency, for each curve.
 
-Modes without a place in a bin (zero, negative, beyond the edges) are counted in every row, so that
-the bins and `modes_outside` are all modes.
+Modes in no bin (zero, negative, beyond the edges) are counted in every row, so that the bins and
+`modes_outside` together are all modes.
 """
 
 from __future__ import annotations
@@ -10,14 +10,14 @@ import pandas as pd
 
 from grainmodes.ensemble import bin_density
 from grainmodes.ensemble.spectra import shared_edges, spectrum
+from grainmodes.figures.shared.columns import POINT
 from grainmodes.figures.shared.selection import Options
+from grainmodes.figures.shared.spectral_points import Coordinates
 from grainmodes.statistics import averages, binning
 from grainmodes.statistics.binning import BinnedModes
 
 BINS = {
-    "n": ("1", "number of grains N"),
-    "phi": ("1", "area fraction"),
-    "kt": ("k_N", "tangential stiffness k_T"),
+    **POINT,
     "omega": ("1/t_0", "geometric middle of the bin"),
     "omega_low": ("1/t_0", "lower edge of the bin"),
     "omega_high": ("1/t_0", "upper edge of the bin"),
@@ -41,37 +41,39 @@ PARTICIPATION = {
 COLUMNS = BINS | DENSITY | FRACTION | PARTICIPATION
 
 
-Point = tuple[int, float, float]
-"""n, phi, k_T."""
-
-
-def rows(ensemble, options: Options, points: list[Point]) -> pd.DataFrame:
+def bin_rows(ensemble, options: Options, points: list[Coordinates]) -> pd.DataFrame:
     """The bins of several points below each other, with all columns `COLUMNS`.
 
-    Each point has bins of its own. One without any vibration (no jammed sample) has no rows.
+    Each point has its own bins. A point without any vibration (no jammed sample) has no rows.
     """
-    return stacked([compared(ensemble, options, {"": (point, "")}) for point in points])
+    return stack([compare_spectra(ensemble, options, {"": (point, "")}) for point in points])
 
 
-def compared(ensemble, options: Options, kinds: dict[str, tuple[Point, str]]) -> pd.DataFrame:
-    """Several spectra below each other, with all columns and `kind`.
+def compare_spectra(
+    ensemble, options: Options, kinds: dict[str, tuple[Coordinates, str]]
+) -> pd.DataFrame:
+    """Several spectra in the same bins below each other, with all columns and `kind`.
 
-    All are in the same bins, but for those that the study counted: these keep their own.
+    Spectra that the study counted in bins keep these.
 
     Args:
         kinds: word for the column `kind` → point, and ending of the names in the ensemble.
     """
     spectra = {kind: spectrum(ensemble, *point, ending) for kind, (point, ending) in kinds.items()}
-    kappa = max(point[-1] for point, _ in kinds.values())
+    largest_kt = max(point[-1] for point, _ in kinds.values())
     chosen = bin_density(ensemble) if options.bin_density is None else options.bin_density
-    edges = shared_edges(list(spectra.values()), kappa, chosen)
-    parts = [of_bins(of.in_bins(edges), kinds[kind][0], kind) for kind, of in spectra.items()]
-    return stacked(parts)
+    edges = shared_edges(list(spectra.values()), largest_kt, chosen)
+    return stack(
+        [
+            rows_of_bins(modes.in_bins(edges), kinds[kind][0], kind)
+            for kind, modes in spectra.items()
+        ]
+    )
 
 
-def of_bins(modes: BinnedModes, point: Point, kind: str) -> pd.DataFrame:
+def rows_of_bins(modes: BinnedModes, point: Coordinates, kind: str) -> pd.DataFrame:
     """The rows of one spectrum, with all columns and `kind`."""
-    n, phi, kappa = point
+    n, phi, kt = point
     density = averages.density_of_states(modes.count, n, modes.edges)
     psi = averages.mode_average(modes.count, modes.psi_rotational)
     participation = averages.mode_average(modes.count, modes.participation_ratio)
@@ -79,7 +81,7 @@ def of_bins(modes: BinnedModes, point: Point, kind: str) -> pd.DataFrame:
         {
             "n": n,
             "phi": phi,
-            "kt": kappa,
+            "kt": kt,
             "omega": binning.bin_centres(modes.edges),
             "omega_low": modes.edges[:-1],
             "omega_high": modes.edges[1:],
@@ -98,7 +100,7 @@ def of_bins(modes: BinnedModes, point: Point, kind: str) -> pd.DataFrame:
     )
 
 
-def stacked(parts: list[pd.DataFrame]) -> pd.DataFrame:
+def stack(parts: list[pd.DataFrame]) -> pd.DataFrame:
     """Tables below each other, without those that hold no mode."""
     filled = [part for part in parts if part["modes"].any()]
     return pd.concat(filled or [parts[0][:0]], ignore_index=True)

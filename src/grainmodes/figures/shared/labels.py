@@ -1,0 +1,83 @@
+"""Words of the figures: numbers as formulas, units of axes, titles of panels, captions."""
+
+from __future__ import annotations
+
+import math
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+MODULUS_UNIT = {"hertz": r"$(k_N d^{1/2})$", "harmonic": "$k_N$"}
+"""Unit of a modulus under each normal contact law."""
+
+
+def modulus_label(symbol: str, table) -> str:
+    """Label of an axis: a modulus and its unit under the contact law of the table."""
+    return f"{symbol} / {MODULUS_UNIT[table['law'].iloc[0]]}"
+
+
+def power(value: float, digits: int | None = None) -> str:
+    """A number as a formula, first rounded to `digits` significant digits if they are given.
+
+    1e-08 → 10^{-8}, 0.03 → 3 x 10^{-2}, 2 → 2.
+    """
+    if digits is not None:
+        value = float(f"{value:.{digits}g}")
+    if value == 0 or 0.1 <= value < 1000:
+        return f"{value:g}"
+    exponent = math.floor(math.log10(value) + 1e-12)
+    factor = f"{value / 10.0**exponent:.3g}"
+    return rf"10^{{{exponent}}}" if factor == "1" else rf"{factor}\times 10^{{{exponent}}}"
+
+
+def fraction(phi: float) -> str:
+    """An area fraction with at least two digits: 0.9 → 0.90, 0.845 → 0.845."""
+    return f"{phi:.2f}" if math.isclose(phi, round(phi, 2)) else f"{phi:g}"
+
+
+def count_samples(counts) -> str:
+    """How many samples stand behind the points of a figure: `8 samples`, `6–8 samples`."""
+    low, high = int(min(counts)), int(max(counts))
+    word = "sample" if high == 1 else "samples"
+    return f"{high} {word}" if low == high else f"{low}–{high} {word}"
+
+
+CONSTANTS = {
+    "n": lambda n: f"$N = {n}$",
+    "phi": lambda phi: rf"$\phi = {fraction(phi)}$",
+    "kt": lambda kt: f"$k_T / k_N = {power(kt)}$",
+}
+"""How a caption states a value that all curves of a figure have in common."""
+
+
+def constants(table, names: tuple[str, ...] = ("n", "phi", "kt")) -> list[str]:
+    """These values of the first row of a table, as formulas."""
+    return [CONSTANTS[name](table[name].iloc[0]) for name in names]
+
+
+def sample_caption(table, *parts: str) -> str:
+    """N, φ, k_T and the seed of the sample that a table is about, then further parts."""
+    return ", ".join([*constants(table), f"seed {table['seed'].iloc[0]}", *parts])
+
+
+def write_caption(figure: Figure, table, names: tuple = ("n",), note: str = "") -> None:
+    """Write constants, number of samples and the meaning of the bars above the figure, and a note
+    below them."""
+    parts = [*constants(table, names), count_samples(table["samples"]), "bars: standard error"]
+    figure.suptitle(", ".join(parts) + (f"\n{note}" if note else ""))
+
+
+def write_sample_caption(figure: Figure, table, note: str) -> None:
+    """Write the constants of one sample above the figure, and a note below them."""
+    parts = [*constants(table), f"sample {table['seed'].iloc[0]}"]
+    figure.suptitle(", ".join(parts) + f"\n{note}")
+
+
+def name_panel(axes: Axes, index: int, text: str) -> None:
+    """Write letter and title above a panel."""
+    axes.set_title(f"({'abcdefgh'[index]}) {text}")
+
+
+def say_empty(figure: Figure) -> None:
+    """Say that the source has no point to show."""
+    figure.text(0.5, 0.5, "no converged sample to show", ha="center", va="center")
