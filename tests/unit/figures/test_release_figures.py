@@ -67,7 +67,7 @@ def test_growth_shows_records_and_the_laws_through_them(release):
     assert_array_equal(rows["m"], values["release_mean_square_displacement"][0, 0, known])
     linear = rows[(rows["m"] > 1e-18) & (rows["m"] < 1e-11)]
     for column in ("m", "a"):
-        assert_allclose(linear[f"{column}_law"], linear[column], rtol=0.02)
+        assert_allclose(linear[f"{column}_fit"], linear[column], rtol=0.02)
     assert abs(rows["growth_error"].iloc[0]) < 0.01
 
 
