@@ -33,7 +33,8 @@ def test_modes_and_bins_give_the_same_numbers(whole_ensemble, counted_ensemble):
 def test_figures_of_bins_are_those_of_the_modes_on_their_edges(whole_ensemble, counted_ensemble):
     found = participation_ratio.table(counted_ensemble, Options(kt=(1e-4,)))
     modes = spectrum(whole_ensemble, *POINT).in_bins(synthetic.edges(1e-4))
-    expected = spectral_rows.of_bins(modes, POINT, "without")[list(participation_ratio.COLUMNS)]
+    expected = spectral_rows.rows_of_bins(modes, POINT, "without")
+    expected = expected[list(participation_ratio.COLUMNS)]
     error = "participation_ratio_standard_error"
     pd.testing.assert_frame_equal(found.drop(columns=error), expected.drop(columns=error))
     total = np.where(found["modes"] > 0, found["modes"], np.nan)

@@ -23,7 +23,7 @@ def table(tmp_path_factory):
 def test_pairs_are_means_over_the_samples(table):
     rows = table[table["kind"] == "pairs"]
     assert list(table.columns) == list(law_comparison.COLUMNS)
-    assert set(rows["tangential"]) == set(TANGENTIAL_LAWS) == set(law_comparison.WORDS)
+    assert set(rows["tangential"]) == set(TANGENTIAL_LAWS) == set(law_comparison.LAW_NAMES)
     assert set(rows["phi"]) == {0.9} and set(rows["samples"]) == {3}
     sharp = rows[rows["tangential"] == "sharp_coulomb"]
     np.testing.assert_allclose(sharp["strain"], np.arange(1, 6) * 1e-3)
