@@ -7,9 +7,8 @@
 #   snakemake -j1 benchmarks                            a table of speeds
 #   snakemake -j2 accuracy                              what each numerical choice costs and buys
 #
-# trajectories -> packings -> {rigidity, step_strain, spectra, probes, shear, variants} -> points
-#                        \-> fields, event_detail -> figures    points -> ensemble -> figures, claims
-#                         pairs -> release -> figures, film
+# trajectories -> packings -> the stages of grainmodes.parameters.stages -> points -> ensemble
+#                          \-> stages of a single sample -> figures       ensemble -> figures, claims
 
 
 include: "workflow/rules/common.smk"
@@ -29,6 +28,5 @@ rule all:
         ensemble=rules.ensemble.output,
         checks=rules.checks.output,
         claims=rules.claims.output,
-        fields=samples_of("fields"),
-        event_detail=samples_of("event_detail"),
+        samples=[samples_of(stage.name) for stage in responses() if stage.single_sample],
         figures=figures(),

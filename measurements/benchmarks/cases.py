@@ -40,7 +40,7 @@ from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
 from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import Eigenproblem, SpectrumChoices, full_spectrum, packing_spectrum
 from grainmodes.spectrum.inertia_counts import count_below, rotational_sums
-from grainmodes.stages import packings as stages
+from grainmodes.stages.compression import compress_block, packing_block
 
 HERTZ = Hertz(1.0)
 PROTOCOL = Compression()
@@ -276,10 +276,10 @@ def start_up(n: int) -> float:
     """A sample job that has next to nothing to do: interpreter, imports, cached kernels."""
     start = None
     for phi in checkpoints_up_to(0.9):
-        start = stages.compress_block(n, range(1), phi, PROTOCOL, "hertz", start)
+        start = compress_block(n, range(1), phi, PROTOCOL, "hertz", start)
     with tempfile.TemporaryDirectory() as folder:
         packings = Path(folder) / "packings.nc"
-        write_block(packings, stages.packing_block(start, 0.9, PROTOCOL, "hertz"))
+        write_block(packings, packing_block(start, 0.9, PROTOCOL, "hertz"))
         command = ["rigidity", str(packings), "--kt", "1e-4", "-o", str(Path(folder) / "g.nc")]
         return min(_cpu_of_job(command) for _ in range(3))
 

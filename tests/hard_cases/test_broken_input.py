@@ -20,21 +20,22 @@ from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw, Rattlers
-from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import Shear, StepStrain
-from grainmodes.stages import packings as stages
 from grainmodes.stages.claim_diagnostics import claim_diagnostics_block
 from grainmodes.stages.complex_pairs import complex_pairs_block
+from grainmodes.stages.compression import compress_block, packing_block
 from grainmodes.stages.event_detail import event_detail_block
 from grainmodes.stages.fields import fields_block
 from grainmodes.stages.law_comparison import law_comparison_block
 from grainmodes.stages.release import release_block
+from grainmodes.stages.rigidity import rigidity_block
 from grainmodes.stages.rows import block_of
 from grainmodes.stages.samples import packed
 from grainmodes.stages.shear import shear_block
 from grainmodes.stages.spectrum import hessian_block, rattlers_block, spectrum_block
+from grainmodes.stages.step_strain import step_strain_block
 from released import complex_pairs_block as unstable_states
 from released import state
 
@@ -52,7 +53,7 @@ def packings() -> Block:
 
 @cache
 def checkpoints() -> Block:
-    return stages.compress_block(16, range(2), 0.7, COARSE, "hertz", None)
+    return compress_block(16, range(2), 0.7, COARSE, "hertz", None)
 
 
 @cache
@@ -90,25 +91,23 @@ def of_packings(made) -> Stage:
 STAGES = {
     "compress": Stage(
         checkpoints,
-        lambda block: stages.compress_block(16, range(2), 0.71, COARSE, "hertz", block),
+        lambda block: compress_block(16, range(2), 0.71, COARSE, "hertz", block),
         (*GRAINS, "phi_jamming"),
     ),
     "equilibrate": Stage(
         checkpoints,
-        lambda block: stages.packing_block(block, 0.71, COARSE, "hertz"),
+        lambda block: packing_block(block, 0.71, COARSE, "hertz"),
         (*GRAINS, "phi_jamming"),
     ),
-    "rigidity": of_packings(lambda block: stages.rigidity_block(block, WEAK, Rattlers())),
-    "step strain": of_packings(lambda block: stages.step_strain_block(block, WEAK, StepStrain())),
+    "rigidity": of_packings(lambda block: rigidity_block(block, WEAK, Rattlers())),
+    "step strain": of_packings(lambda block: step_strain_block(block, WEAK, StepStrain())),
     "spectrum": of_packings(lambda block: spectrum_block(block, WEAK, Rattlers(), "modes", MODES)),
     "rattlers": of_packings(lambda block: rattlers_block(block, WEAK, "modes", MODES)),
     "hessian": of_packings(lambda block: hessian_block(block, WEAK, Rattlers(), MODES)),
     "claim_diagnostics": of_packings(
-        lambda block: claim_diagnostics_block(block, ContactLaw(), Protocol())
+        lambda block: claim_diagnostics_block(block, ContactLaw(), Rattlers(), StepStrain())
     ),
-    "fields": of_packings(
-        lambda block: fields_block(block, WEAK, Rattlers(), StepStrain(), (0.5,))
-    ),
+    "fields": of_packings(lambda block: fields_block(block, WEAK, Rattlers(), StepStrain())),
     "event-detail": of_packings(lambda block: event_detail_block(block, WEAK, SHEAR)),
     "shear": of_packings(lambda block: shear_block(block, WEAK, SHEAR)),
     "pairs": of_packings(lambda block: complex_pairs_block(block, SLIPPING, SHEAR, PairChoices())),

@@ -23,7 +23,7 @@ from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, E
 from grainmodes.protocols.pair_tracking.tracking import PairWalk
 from grainmodes.relaxation.frictionless import relax_fast
 from grainmodes.spectrum import Eigenproblem, slice_eigenpairs, spectrum_slicing
-from grainmodes.stages.packings import compress_block
+from grainmodes.stages.compression import compress_block
 
 
 def test_two_grains_at_one_place_have_no_normal():

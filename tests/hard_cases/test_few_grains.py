@@ -22,7 +22,7 @@ from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation.balance import Balance
 from grainmodes.response.moduli import rigidity
-from grainmodes.stages.packings import compress_block, packing_block
+from grainmodes.stages.compression import compress_block, packing_block
 
 COARSE = Compression(phi_step=1e-3)
 

@@ -21,9 +21,9 @@ from grainmodes.relaxation.balance import Balance
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.following import find_balance
 from grainmodes.relaxation.newton import newton
-from grainmodes.stages.packings import step_strain_block
 from grainmodes.stages.rows import block_of
 from grainmodes.stages.samples import packed
+from grainmodes.stages.step_strain import step_strain_block
 
 FRICTION = Interaction.from_law(ContactLaw("harmonic", "elastic", 1.0))
 FREE = Interaction.from_law(ContactLaw("harmonic"))

@@ -17,7 +17,7 @@ from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
 from grainmodes.response.moduli import rigidity
-from grainmodes.stages.packings import rigidity_block
+from grainmodes.stages.rigidity import rigidity_block
 from grainmodes.stages.rows import block_of
 from grainmodes.stages.samples import is_jammed, packed
 

@@ -3,7 +3,7 @@
 from copy import deepcopy
 from pathlib import Path
 
-from grainmodes.configuration import scene_of
+from grainmodes.configuration import scene_from
 
 CONFIG = Path(__file__).parents[2] / "config"
 """The folder of the scenes that come with the study."""
@@ -30,9 +30,9 @@ def scene_with(path: str | None = None, value=None):
         room[last] = value
         if value is ...:
             del room[last]
-    return scene_of(config)
+    return scene_from(config)
 
 
 def scene_of_grids(*changes: dict, **keys):
     """The scene of the small grid once for every dictionary of changes."""
-    return scene_of({"study": "small", "grids": [GRID | change for change in changes], **keys})
+    return scene_from({"study": "small", "grids": [GRID | change for change in changes], **keys})

@@ -12,7 +12,7 @@ PACKINGS = {"compress": 6, "equilibrate": 2}
 END = {"ensemble": 1, "checks": 1, "claims": 1}
 
 
-def scene_of(observables: dict, **changes) -> dict:
+def scene_with_observables(observables: dict, **changes) -> dict:
     """The tiny scene with these observables, and every figure that they allow."""
     scene = {key: value for key, value in SCENE.items() if key != "figures"}
     return scene | {"grids": [SCENE["grids"][0] | {"observables": observables}]} | changes
@@ -20,7 +20,9 @@ def scene_of(observables: dict, **changes) -> dict:
 
 def test_every_observable(fresh):
     asked = ["rattlers", "hessian", "fields", "claim_diagnostics", "event_detail", "complex_pairs"]
-    fresh.write_scene(scene_of(dict.fromkeys(asked, True) | {"spectrum": "eigenvalues"}))
+    fresh.write_scene(
+        scene_with_observables(dict.fromkeys(asked, True) | {"spectrum": "eigenvalues"})
+    )
     plan = fresh.run("-n", "-p")
     jobs = jobs_in(plan)
     for stage in (
@@ -33,8 +35,8 @@ def test_every_observable(fresh):
         "complex_pairs",
     ):
         assert jobs[stage] == 4
-    assert "--variant rattlers" in plan
-    assert "--variant hessian" in plan
+    assert "grainmodes spectrum-rattlers" in plan
+    assert "grainmodes spectrum-hessian" in plan
     (gather,) = re.findall(r"grainmodes gather .*phi~0.85/kt~1.0.nc", plan)
     assert "spectrum_hessian/" in gather
     assert "fields/" not in gather
@@ -48,7 +50,7 @@ def test_grids_get_what_they_ask_for(fresh):
         grid | {"phi": [0.85], "kt": [1.0], "observables": {"spectrum": "counts"}},
         grid | {"phi": [0.85], "kt": [1e-4], "observables": {"rigidity": False}},
     ]
-    fresh.write_scene(scene_of({}, grids=grids))
+    fresh.write_scene(scene_with_observables({}, grids=grids))
     plan = fresh.run("-n", "-p")
     jobs = jobs_in(plan)
     assert {rule: jobs[rule] for rule in ("equilibrate", "rigidity", "spectrum", "point")} == {

@@ -6,9 +6,15 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from grainmodes.configuration import ConfigurationError, scene_of
+from grainmodes.configuration import ConfigurationError, scene_from
 from grainmodes.parameters.figures import FIGURES
-from grainmodes.parameters.grid import CHECKPOINT_SPACING, LOWEST_CHECKPOINT, checkpoint_at_or_below, format_value
+from grainmodes.parameters.grid import (
+    CHECKPOINT_SPACING,
+    LOWEST_CHECKPOINT,
+    checkpoint_at_or_below,
+    format_value,
+)
+from grainmodes.parameters.stages import STAGES, responses
 from grainmodes.runtime.provenance import script_sources, stage_sources
 from measurements.accuracy import NAMES
 
@@ -19,7 +25,7 @@ if not workflow.config_settings.configfiles:
 
 
 try:
-    scene = scene_of(config)
+    scene = scene_from(config)
 except ConfigurationError as error:
     raise WorkflowError(f"The configuration has mistakes.\n{error}")
 
@@ -30,7 +36,8 @@ STUDY = f"results/{scene.study}"
 BLOCK = "n~{n}/phi~{phi}/seeds~{seeds}.nc"
 RESPONSE = "n~{n}/phi~{phi}/kt~{kt}/seeds~{seeds}.nc"
 POINT = "n~{n}/phi~{phi}/kt~{kt}.nc"
-AT = "n = {wildcards.n}, phi = {wildcards.phi}, k_T = {wildcards.kt}, seeds {wildcards.seeds}"
+AT_POINT = "n = {wildcards.n}, phi = {wildcards.phi}, k_T = {wildcards.kt}"
+AT = f"{AT_POINT}, seeds {{wildcards.seeds}}"
 FORMS = ["png", "pdf", "csv"]
 NUMBER = r"\d+(\.\d+)?(e[+-]?\d+)?"
 
@@ -55,7 +62,9 @@ def as_written(paths):
 
 def sources_of_accuracy(*modules):
     """Files whose edit changes what modules of `measurements/accuracy` do."""
-    return as_written(script_sources(*(Path(f"measurements/accuracy/{name}.py") for name in modules)))
+    return as_written(
+        script_sources(*(Path(f"measurements/accuracy/{name}.py") for name in modules))
+    )
 
 
 def sources_of_figure(wildcards):
@@ -94,26 +103,30 @@ def point_of(wildcards):
 def blocks_of_point(wildcards):
     """Packings and responses of a point, all blocks of seeds."""
     point = point_of(wildcards)
-    stages = scene.responses(*point)
-    files = [f"{STUDY}/packings/{BLOCK}", *(f"{STUDY}/{stage}/{RESPONSE}" for stage in stages)]
+    folders = [STAGES[stage].output for stage in scene.responses(*point)]
+    files = [f"{STUDY}/packings/{BLOCK}", *(f"{STUDY}/{folder}/{RESPONSE}" for folder in folders)]
     return expand(files, seeds=scene.blocks_of(*point), **dict(wildcards.items()))
 
 
-def first_packings(wildcards):
-    """The packings of a point that hold its sample of seed 0."""
-    seeds = scene.blocks_of(*point_of(wildcards))[0]
-    return f"{STUDY}/packings/{BLOCK}".format(seeds=seeds, **dict(wildcards.items()))
+def block_read_by(stage):
+    """What a stage takes: the block of the same seeds, or the first one for a single sample."""
+    read = STAGES[stage.reads]
+    path = f"{STUDY}/{read.output}/{RESPONSE if read.observable else BLOCK}"
+    if not stage.single_sample:
+        return path
+
+    def first_block(wildcards):
+        first = scene.blocks_of(*point_of(wildcards))[0]
+        return path.format(seeds=first, **dict(wildcards.items()))
+
+    return first_block
 
 
-def shear_settings(wildcards):
-    """The settings of a shear, done twice where the point's grid asks for it."""
-    asked = scene.grid_at(*point_of(wildcards)).observables
-    return scene.settings("shear", coarse_run=asked.coarse_run)
-
-
-def spectrum_settings(stage):
-    """The settings of a spectrum, whose kind is that of the point's grid."""
-    return lambda wildcards: scene.settings(stage, scene.spectrum_kind(*point_of(wildcards)))
+def settings_of(stage):
+    """The settings of a stage, those of the point's grid where it depends on observables."""
+    if not stage.parts("observables"):
+        return scene.settings(stage.name)
+    return lambda wildcards: scene.settings(stage.name, point_of(wildcards))
 
 
 def files_of(room, points):
@@ -122,21 +135,17 @@ def files_of(room, points):
     return [f"{STUDY}/{room}/{POINT}".format(**name) for name in names]
 
 
-def samples_of(stage):
-    """The files of a stage that keeps grains: one sample of every point that asks, or all."""
-    if stage == "release":
-        return releases()
-    points = {"fields": scene.field_points, "event_detail": scene.event_detail_points}
-    return files_of(stage, points[stage])
-
-
-def releases():
-    """The files of all samples that are released."""
+def samples_of(name):
+    """The files of a stage that single samples are drawn from: of every point that requests it."""
+    stage = STAGES[name]
     files = []
-    for p in scene.release_points:
-        names = {key: format_value(value) for key, value in vars(p).items()}
-        blocks = scene.blocks_of(p.n, p.phi, p.kt)
-        files += expand(f"{STUDY}/release/{RESPONSE}", seeds=blocks, **names)
+    for point in scene.points_of(name):
+        names = {key: format_value(value) for key, value in vars(point).items()}
+        if stage.single_sample:
+            files.append(f"{STUDY}/{stage.output}/{POINT}".format(**names))
+        else:
+            blocks = scene.blocks_of(point.n, point.phi, point.kt)
+            files += expand(f"{STUDY}/{stage.output}/{RESPONSE}", seeds=blocks, **names)
     return files
 
 

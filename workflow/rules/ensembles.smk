@@ -20,7 +20,7 @@ rule ensemble:
     output:
         f"{STUDY}/ensemble.nc",
     params:
-        config=scene.settings("ensemble"),
+        config=scene.summary(),
     message:
         "Gather all points into one ensemble."
     shell:

@@ -3,7 +3,7 @@
 
 rule film:
     input:
-        data=releases(),
+        data=samples_of("release"),
         code=sources("grainmodes.figures.paper_c.film"),
     output:
         f"{STUDY}/figures/release_spirals.gif",

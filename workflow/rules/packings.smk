@@ -4,7 +4,7 @@
 rule compress:
     input:
         start=checkpoint_below,
-        code=sources("grainmodes.stages.packings:compress_block"),
+        code=sources(*STAGES["compress"].code),
     output:
         f"{STUDY}/trajectories/{BLOCK}",
     priority: 2  # everything else waits for the trajectories
@@ -20,12 +20,12 @@ rule compress:
 rule equilibrate:
     input:
         start=checkpoint_for,
-        code=sources("grainmodes.stages.packings:packing_block"),
+        code=sources(*STAGES["equilibrate"].code),
     output:
         f"{STUDY}/packings/{BLOCK}",
     priority: 1
     params:
-        settings=scene.settings("compress"),
+        settings=scene.settings("equilibrate"),
     message:
         "Balance {wildcards.n} grains at phi = {wildcards.phi} (seeds {wildcards.seeds})."
     shell:

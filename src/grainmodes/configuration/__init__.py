@@ -9,18 +9,25 @@ from __future__ import annotations
 from pathlib import Path
 
 from grainmodes.configuration import rules
-from grainmodes.configuration.grids import Grid, Observables
+from grainmodes.configuration.grids import Grid
+from grainmodes.configuration.mistakes import ConfigurationError
 from grainmodes.configuration.scene import Scene
 from grainmodes.configuration.schema import complete, mistakes, schema
+from grainmodes.configuration.stage_settings import StageSettings, check_point, stage_settings
 
-__all__ = ["ConfigurationError", "Grid", "Observables", "Scene", "read_scene", "scene_of"]
+__all__ = [
+    "ConfigurationError",
+    "Grid",
+    "Scene",
+    "StageSettings",
+    "check_point",
+    "read_scene",
+    "scene_from",
+    "stage_settings",
+]
 
 
-class ConfigurationError(ValueError):
-    """A configuration with mistakes: one sentence, one line, for each."""
-
-
-def scene_of(config: dict) -> Scene:
+def scene_from(config: dict) -> Scene:
     """The scene that a configuration describes.
 
     Raises:
@@ -30,14 +37,14 @@ def scene_of(config: dict) -> Scene:
     found = mistakes(full, schema()) or list(rules.conflicts(full))
     if found:
         raise ConfigurationError("\n".join(found))
-    return Scene.of(full)
+    return Scene.from_config(full)
 
 
 def read_scene(path: str | Path) -> Scene:
     """The scene of a YAML file.
 
     Raises:
-        ConfigurationError: the file is missing or is not YAML, or what `scene_of` raises.
+        ConfigurationError: the file is missing or is not YAML, or what `scene_from` raises.
     """
     import yaml
 
@@ -48,4 +55,4 @@ def read_scene(path: str | Path) -> Scene:
         raise ConfigurationError(f"{path}: not a readable YAML file ({reason})") from error
     if not isinstance(config, dict):
         raise ConfigurationError(f"{path}: expected the keys study and grids, got no keys")
-    return scene_of(config)
+    return scene_from(config)

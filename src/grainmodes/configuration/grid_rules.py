@@ -48,21 +48,25 @@ def _friction(config: dict) -> Iterator[str]:
 
 def _boxes(config: dict) -> Iterator[str]:
     for place, grid in enumerate(config["grids"]):
-        phi = max(grid["phi"])
-        fewest = 2 * math.ceil(SMALLEST_BOX**2 * phi / AREA_PER_GRAIN / 2)
         for n in grid["n"]:
-            side = math.sqrt(n * AREA_PER_GRAIN / phi)
-            if side < SMALLEST_BOX:
-                yield (
-                    f"grids[{place}].n: expected at least {fewest} grains, because at phi = {phi} "
-                    f"a grain can touch two images of another in a box narrower than "
-                    f"{SMALLEST_BOX} d, got {n} grains in a box of {side:.2f} d"
-                )
+            yield from narrow_box(f"grids[{place}].n", n, max(grid["phi"]))
+
+
+def narrow_box(key: str, n: int, phi: float) -> Iterator[str]:
+    """A sentence about `key` if the box of n grains at φ is too narrow."""
+    fewest = 2 * math.ceil(SMALLEST_BOX**2 * phi / AREA_PER_GRAIN / 2)
+    side = math.sqrt(n * AREA_PER_GRAIN / phi)
+    if side < SMALLEST_BOX:
+        yield (
+            f"{key}: expected at least {fewest} grains, because at phi = {phi} a grain can touch "
+            f"two images of another in a box narrower than {SMALLEST_BOX} d, got {n} grains in a "
+            f"box of {side:.2f} d"
+        )
 
 
 def _points(config: dict) -> Iterator[str]:
     """A point in two grids would have two lists of observables."""
-    grids = enumerate(map(Grid.of, config["grids"]))
+    grids = enumerate(map(Grid.from_config, config["grids"]))
     for (first, one), (second, other) in combinations(grids, 2):
         common = next(filter(one.holds, other.points), None)
         if common:
@@ -82,8 +86,8 @@ def _blocks(config: dict) -> Iterator[str]:
         if shared and fewer != more and fewer % block:
             yield (
                 f"grids[{second}].seeds: expected {one['seeds']} as in grids[{first}], or the "
-                f"smaller of both a multiple of block = {block}, because both share the files of "
-                f"n = {shared[0]}, got {other['seeds']}"
+                f"smaller of both a multiple of seeds_per_job = {block}, because both share the "
+                f"files of n = {shared[0]}, got {other['seeds']}"
             )
 
 

@@ -5,48 +5,27 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import product
+from types import MappingProxyType
 
 from grainmodes.parameters.fields import MOST_FOR_ALL_MODES
 from grainmodes.parameters.figures import FIGURES
 from grainmodes.parameters.grid import Point
+from grainmodes.parameters.stages import Observables, requested, responses
 
 
-@dataclass(frozen=True)
-class Observables:
-    """What is computed from every packing of a grid."""
+def offered(observables: Observables) -> set[str]:
+    """The words of `parameters.figures` that a grid with these observables satisfies.
 
-    rigidity: bool = True
-    step_strain: bool = True
-    spectrum: str = "modes"
-    rattlers: bool = False
-    hessian: bool = False
-    fields: bool = False
-    claim_diagnostics: bool = False
-    shear: bool = False
-    coarse_run: bool = False
-    event_detail: bool = False
-    complex_pairs: bool = False
-    release: bool = False
-    law_comparison: bool = False
-
-    @property
-    def words(self) -> set[str]:
-        """What they offer to a figure."""
-        offered = {
-            "rigidity": self.rigidity,
-            "spectrum": self.spectrum != "none",
-            "modes": self.spectrum in ("binned_averages", "modes"),
-            "rattlers": self.rattlers,
-            "hessian": self.hessian,
-            "fields": self.fields,
-            "shear": self.shear,
-            "coarse_run": self.shear and self.coarse_run,
-            "event_detail": self.event_detail,
-            "complex_pairs": self.complex_pairs,
-            "release": self.release,
-            "law_comparison": self.law_comparison,
-        }
-        return {word for word, here in offered.items() if here}
+    A word is the key of an observable that is on; `spectrum` stands for a spectrum of any kind,
+    `modes` for one with eigenvectors or averages of them, and an option counts with its stage.
+    """
+    words = {stage.observable for stage in responses() if stage.is_requested(observables, kt=1.0)}
+    for stage in responses():
+        if stage.observable in words:
+            words |= {option for option in stage.options if observables[option]}
+    if observables["spectrum"] in ("binned_averages", "modes"):
+        words.add("modes")
+    return words
 
 
 @dataclass(frozen=True)
@@ -60,14 +39,14 @@ class Grid:
     observables: Observables
 
     @classmethod
-    def of(cls, config: dict) -> Grid:
+    def from_config(cls, config: dict) -> Grid:
         """The grid of a complete and valid item of `grids`; without friction k_T is 0."""
         return cls(
             n=tuple(map(int, config["n"])),
             phi=tuple(map(float, config["phi"])),
             kt=tuple(map(float, config.get("kt", [0.0]))),
             seeds=int(config["seeds"]),
-            observables=Observables(**config["observables"]),
+            observables=MappingProxyType(dict(config["observables"])),
         )
 
     @property
@@ -80,24 +59,8 @@ class Grid:
         return point.n in self.n and point.phi in self.phi and point.kt in self.kt
 
     def stages(self, kt: float) -> list[str]:
-        """Stages that a point with this k_T asks for, beside packings and single samples.
-
-        Without rotation the effective Hessian is J, and there is nothing to probe or to release.
-        """
-        asked = self.observables
-        wanted = {
-            "rigidity": asked.rigidity,
-            "step_strain": asked.step_strain,
-            "spectrum": asked.spectrum != "none",
-            "spectrum_rattlers": asked.rattlers,
-            "spectrum_hessian": asked.hessian and kt > 0.0,
-            "claim_diagnostics": asked.claim_diagnostics and kt > 0.0,
-            "shear": asked.shear,
-            "complex_pairs": asked.complex_pairs and kt > 0.0,
-            "release": asked.release and kt > 0.0,
-            "law_comparison": asked.law_comparison and kt > 0.0,
-        }
-        return [stage for stage, here in wanted.items() if here]
+        """Names of the stages that a point with this k_T requests and gathers."""
+        return [stage.name for stage in requested(self.observables, kt) if not stage.single_sample]
 
 
 TOGETHER = {
@@ -122,8 +85,8 @@ def lacking(figure: str, grids: Iterable[Grid]) -> list[str]:
     """
     needs = FIGURES[figure].observables
     observables = {word for word in needs if word not in TOGETHER}
-    having = [grid for grid in grids if observables <= grid.observables.words]
+    having = [grid for grid in grids if observables <= offered(grid.observables)]
     if having:
         return [word for word in needs if word in TOGETHER and not TOGETHER[word](having)]
-    nowhere = observables.difference(*(grid.observables.words for grid in grids))
+    nowhere = observables.difference(*(offered(grid.observables) for grid in grids))
     return [word for word in needs if word in (nowhere or observables)]

@@ -14,6 +14,8 @@ from pathlib import Path
 
 import yaml
 
+from grainmodes.parameters.stages import observable_keys, responses
+
 FOLDER = Path(__file__).with_name("schemas")
 
 TYPES = {
@@ -27,8 +29,32 @@ TYPES = {
 
 @cache
 def schema() -> dict:
-    """The schema of a scene, as plain dictionaries; callers do not change it."""
-    return _in_full({"$ref": "config.schema.yaml"})
+    """The schema of a scene, as plain dictionaries; callers do not change it.
+
+    The keys of `grids.observables` are those of the table of stages.
+    """
+    whole = _in_full({"$ref": "config.schema.yaml"})
+    observables = whole["properties"]["grids"]["items"]["properties"]["observables"]
+    observables["properties"] = observable_keys(responses())
+    return whole
+
+
+@cache
+def settings_schema() -> dict:
+    """The schema of the settings of a stage: its contact law, choices and observables."""
+    keys = schema()["properties"]
+    observables = keys["grids"]["items"]["properties"]["observables"]
+    parts = {name: keys[name] for name in ("contact_law", "protocol")}
+    return {
+        "type": "object",
+        "additionalProperties": False,
+        "properties": parts | {"observables": observables},
+    }
+
+
+def point_rule(name: str) -> dict:
+    """The rule of n, phi or kt of a single point."""
+    return schema()["properties"]["grids"]["items"]["properties"][name]["items"]
 
 
 def complete(value, rule: dict):

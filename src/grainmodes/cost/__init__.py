@@ -9,6 +9,15 @@
 from grainmodes.cost.estimate import estimate, wall_seconds
 from grainmodes.cost.item import Item
 from grainmodes.cost.report import report
-from grainmodes.cost.table import COSTS, Law, Table, read_table
+from grainmodes.cost.table import COSTS, GrowthLaw, Table, read_table
 
-__all__ = ["COSTS", "Item", "Law", "Table", "estimate", "read_table", "report", "wall_seconds"]
+__all__ = [
+    "COSTS",
+    "GrowthLaw",
+    "Item",
+    "Table",
+    "estimate",
+    "read_table",
+    "report",
+    "wall_seconds",
+]

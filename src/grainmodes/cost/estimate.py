@@ -11,7 +11,7 @@ from grainmodes.configuration import Scene
 from grainmodes.cost.item import Item, Job
 from grainmodes.cost.packings import packings
 from grainmodes.cost.responses import responses
-from grainmodes.cost.table import Law, Table
+from grainmodes.cost.table import GrowthLaw, Table
 
 
 def estimate(scene: Scene, table: Table) -> list[Item]:
@@ -28,7 +28,7 @@ def _gathering(scene: Scene, table: Table, largest: int) -> Item:
     """Points, then the ensemble, its checks and figures: little more than starts of jobs."""
     nothing = Job(0, 0.0, 0.0)
     chains = [[nothing] * 3, *([nothing] for _ in [*scene.points[1:], *scene.figures])]
-    free = Law(0.0, 0.0, 0.0, 0.0, largest)
+    free = GrowthLaw(0.0, 0.0, 0.0, 0.0, largest)
     return Item.of("gather", None, largest, chains, [free], table)
 
 

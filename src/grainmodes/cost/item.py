@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from grainmodes.cost.table import Law, Table
+from grainmodes.cost.table import GrowthLaw, Table
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Item:
         grid: int | None,
         n: int,
         chains: list[list[Job]],
-        laws: list[Law],
+        laws: list[GrowthLaw],
         table: Table,
     ) -> Item:
         """The sum over jobs; those of a chain treat the same samples, one job after the other."""

@@ -9,6 +9,7 @@ from grainmodes.cost.item import Item, Job
 from grainmodes.cost.table import Table
 from grainmodes.cost.work import degrees_of_freedom, work
 from grainmodes.parameters.grid import Point, parse_seeds, seed_blocks
+from grainmodes.parameters.stages import STAGES, requested
 
 NUMBERS = {"counts": 0, "binned_averages": 0, "eigenvalues": 1, "modes": 3}
 """Numbers per mode that a kind of spectrum stores."""
@@ -23,10 +24,8 @@ def responses(scene: Scene, table: Table, place: int) -> Iterator[Item]:
     sizes = [len(parse_seeds(block)) for block in seed_blocks(grid.seeds, scene.seeds_per_job)]
     for n in grid.n:
         for stage, points in _stages(grid, n).items():
-            yield _response(scene, table, place, stage, points, sizes)
-        for stage in ("fields", "event_detail"):
-            if getattr(grid.observables, stage):
-                yield _response(scene, table, place, stage, _points(grid, n), [1])
+            size = [1] if STAGES[stage].single_sample else sizes
+            yield _response(scene, table, place, stage, points, size)
 
 
 def _points(grid: Grid, n: int) -> list[Point]:
@@ -37,8 +36,8 @@ def _stages(grid: Grid, n: int) -> dict[str, list[Point]]:
     """Stage → the points of one n that ask for it."""
     found: dict[str, list[Point]] = {}
     for point in _points(grid, n):
-        for stage in grid.stages(point.kt):
-            found.setdefault(stage, []).append(point)
+        for stage in requested(grid.observables, point.kt):
+            found.setdefault(stage.name, []).append(point)
     return found
 
 
@@ -46,15 +45,17 @@ def _response(
     scene: Scene, table: Table, place: int, stage: str, points: list[Point], sizes: list[int]
 ) -> Item:
     """A stage at some points, each in blocks of so many samples."""
-    kind = scene.grids[place].observables.spectrum
+    kind = scene.grids[place].observables["spectrum"]
     used, chains = set(), []
     for point in points:
         units = work(stage, kind, point.n, point.kt, scene.protocol, table)
-        seconds = sum(times * table.laws[name].seconds_at(point.n) for name, times in units.items())
+        seconds = sum(
+            times * table.growth_law(name).seconds_at(point.n) for name, times in units.items()
+        )
         disk = _stored(stage, kind, point, table)
         chains += [[Job(size, size * seconds, size * disk)] for size in sizes]
         used |= set(units)
-    laws = [table.laws[name] for name in sorted(used)]
+    laws = [table.growth_law(name) for name in sorted(used)]
     return Item.of(stage, place, points[0].n, chains, laws, table)
 
 

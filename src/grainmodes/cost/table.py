@@ -27,7 +27,7 @@ REFERENCE = 1024
 
 
 @dataclass(frozen=True)
-class Law:
+class GrowthLaw:
     """The cost of one unit of work as a power of N."""
 
     seconds: float
@@ -45,16 +45,24 @@ class Law:
         return self.megabytes * (n / REFERENCE) ** self.memory_exponent
 
 
+UNMEASURED = GrowthLaw(1.0, 1.0, 100.0, 1.0, up_to=0)
+"""What a stage is taken to cost before `snakemake growth` has measured it."""
+
+
 @dataclass(frozen=True)
 class Table:
     """Everything in `costs.yaml`."""
 
     machine: str
-    laws: dict[str, Law]
+    laws: dict[str, GrowthLaw]
     climb: dict[float, float]
     compression: dict[str, float]
     job: dict[str, float]
     disk: dict[str, float]
+
+    def growth_law(self, name: str) -> GrowthLaw:
+        """The growth law of a stage or of a kind of work; a guess where it was never measured."""
+        return self.laws.get(name, UNMEASURED)
 
     def share(self, phi: float) -> float:
         """Part of a trajectory to φ = 0.90 that lies below φ, linear between rows of `climb`."""
@@ -77,7 +85,7 @@ def read_table(path: str | Path = COSTS) -> Table:
     """
     try:
         content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-        laws = {name: Law(**row) for name, row in content["laws"].items()}
+        laws = {name: GrowthLaw(**row) for name, row in content["laws"].items()}
         return Table(**content | {"laws": laws})
     except (yaml.YAMLError, TypeError, KeyError, AttributeError) as error:
         reason = " ".join(str(error).split())

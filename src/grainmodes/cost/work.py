@@ -9,6 +9,7 @@ of 1e-4, complex pairs per state, a release per million steps of all its runs.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib.util import find_spec
 
 from grainmodes.cost.table import Table
@@ -21,6 +22,7 @@ from grainmodes.parameters.spectra import (
     DENSE_MODES_UP_TO,
     SpectrumChoices,
 )
+from grainmodes.parameters.stages import STAGES
 from grainmodes.statistics.binning import (
     HIGHEST_BINS,
     HIGHEST_DIVISIONS,
@@ -41,23 +43,17 @@ def work(
     """Units of work of a stage on one sample of n grains.
 
     Args:
-        stage: one of the responses, or "fields".
+        stage: a name of the table of stages, `parameters.stages`.
         kind: of the spectrum at this point.
         kt: k_T / k_N; at 0 there is no rotation and no band of it.
     """
-    choices = protocol.spectrum
-    if stage == "spectrum_hessian":
-        once = _spectrum("counts", n, kt, choices, table)
-        return {name: 2 * units for name, units in once.items()}
-    if stage.startswith("spectrum"):
-        return _spectrum(kind, n, kt, choices, table)
-    if stage in ("shear", "law_comparison"):
-        return {stage: protocol.shear.strain / USUAL_STEP}
-    if stage == "release":
-        return {"release": _runs(protocol.release)}
-    if stage == "complex_pairs":
-        return {"complex_pairs": protocol.shear.strain / protocol.shear.step}
-    return {stage: 1}
+    entry = STAGES[stage]
+    if entry.work in ("spectrum", "two spectra"):
+        times = 2 if entry.work == "two spectra" else 1
+        kind = kind if entry.work == "spectrum" else "counts"
+        once = _spectrum(kind, n, kt, protocol.spectrum, table)
+        return {name: times * units for name, units in once.items()}
+    return {stage: UNITS[entry.work](protocol)}
 
 
 def _runs(choices: Release) -> float:
@@ -65,6 +61,15 @@ def _runs(choices: Release) -> float:
     growth = choices.duration / USUAL_RATE
     time = max(growth, choices.min_time) + len(choices.dampings) * growth
     return 1e-6 * time / choices.time_step
+
+
+UNITS: dict[str, Callable[[Protocol], float]] = {
+    "sample": lambda protocol: 1.0,
+    "usual steps": lambda protocol: protocol.shear.strain / USUAL_STEP,
+    "steps": lambda protocol: protocol.shear.strain / protocol.shear.step,
+    "runs": lambda protocol: _runs(protocol.release),
+}
+"""`work` of an entry of the table of stages → units of its growth law in one sample."""
 
 
 def degrees_of_freedom(n: int, kt: float) -> int:

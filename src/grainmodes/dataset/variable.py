@@ -18,3 +18,13 @@ class Variable(NamedTuple):
     dtype: str
     unit: Unit
     long_name: str
+
+
+NOT_GATHERED = {"grain", "contact", "frame", "spectrum", "binary", "record", "pair"}
+"""Dimensions of what stays in the files of single samples: grains, contacts, moments of a run."""
+
+
+def is_gathered(variable: Variable) -> bool:
+    """Whether a point keeps it: one number per sample, or one series per sample."""
+    first, *rest = variable.dimensions or ("",)
+    return first == "seed" and len(rest) < 2 and not NOT_GATHERED & set(rest)

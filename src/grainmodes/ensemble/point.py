@@ -17,30 +17,11 @@ import numpy as np
 
 from grainmodes.dataset import VARIABLES
 from grainmodes.dataset.files import Block, BlockError, read_block
+from grainmodes.dataset.variable import is_gathered
+from grainmodes.parameters.stages import gathered
 
-STAGES = (
-    "packings",
-    "rigidity",
-    "step_strain",
-    "spectrum",
-    "spectrum_rattlers",
-    "spectrum_hessian",
-    "claim_diagnostics",
-    "shear",
-    "complex_pairs",
-    "release",
-    "law_comparison",
-)
-"""Values of the attribute `stage`, in the order in which names win."""
-
-SERIES = (
-    *("mode", "edge", "bin", "diagnostic", "state", "coarse_state", "event", "change", "bracket"),
-    *("pair_state", "track", "exceptional_point", "neighbour_state", "followed_state", "product"),
-    *("damping", "comparison_state"),
-)
-
-PER_SAMPLE = (("seed",), *(("seed", name) for name in SERIES))
-"""Dimensions of the variables that a point keeps."""
+STAGES = tuple(gathered())
+"""Values of the attribute `stage` that a point gathers, in the order in which names win."""
 
 
 def gather_point(paths: list[str | Path]) -> Block:
@@ -106,7 +87,7 @@ def _aligned(members: dict[str, Block], seeds: np.ndarray) -> dict[str, np.ndarr
     for block in members.values():
         place = np.searchsorted(seeds, block.variables["seed"])
         for name, array in block.variables.items():
-            if name != "seed" and VARIABLES[name].dimensions in PER_SAMPLE:
+            if name != "seed" and is_gathered(VARIABLES[name]):
                 found.setdefault(name, []).append((place, array))
     return {name: _together(parts, len(seeds)) for name, parts in found.items()}
 

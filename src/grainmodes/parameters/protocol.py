@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from grainmodes.parameters.complex_pairs import PairChoices
@@ -23,3 +24,18 @@ class Protocol:
     release: Release = field(default_factory=Release)
     rattlers: Rattlers = field(default_factory=Rattlers)
     spectrum: SpectrumChoices = field(default_factory=SpectrumChoices)
+
+    @classmethod
+    def from_config(cls, config: Mapping[str, Mapping]) -> Protocol:
+        """The choices in the complete and valid block `protocol` of a configuration."""
+        release = dict(config["release"])
+        release["dampings"] = tuple(release["dampings"])
+        return cls(
+            Compression(**config["compression"]),
+            StepStrain(**config["step_strain"]),
+            Shear(**config["shear"]),
+            PairChoices(**config["complex_pairs"]),
+            Release(**release),
+            Rattlers(**config["rattlers"]),
+            SpectrumChoices(**config["spectrum"]),
+        )

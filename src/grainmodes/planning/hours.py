@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from grainmodes.configuration import scene_of
+from grainmodes.configuration import stage_settings
 from grainmodes.cost.table import Table
 from grainmodes.cost.work import work
 from grainmodes.ensemble import configuration
@@ -20,14 +20,11 @@ from grainmodes.planning.quantities import PointCoordinates
 if TYPE_CHECKING:
     import xarray as xr
 
-ANY_GRID = {"n": [64], "phi": [0.9], "kt": [0.0], "seeds": 1}
-"""A valid grid, needed to read a scene; its values are not used."""
-
 
 def protocol_of(ensemble: xr.Dataset) -> Protocol:
     """The numerical choices of a pilot, with the defaults for all that its configuration omits."""
     choices = configuration(ensemble).get("protocol", {})
-    return scene_of({"study": "pilot", "grids": [ANY_GRID], "protocol": choices}).protocol
+    return stage_settings({"protocol": choices}).protocol
 
 
 def seconds_per_seed(point: PointCoordinates, kind: str, protocol: Protocol, table: Table) -> float:

@@ -12,44 +12,19 @@ import hashlib
 import pickle
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import Generic, NamedTuple
+from typing import Generic
 
 import numpy as np
 
 from grainmodes.dataset.files import Block
-from grainmodes.protocols.release.release_run import ReleaseRun
-from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.runtime.atomic import replaced
+from grainmodes.runtime.progress import Progress
 from grainmodes.runtime.provenance import code_version
 from grainmodes.stages.long_runs import Run
 
 SECONDS_PER_LINE = 2.0
 """Seconds between two lines on a terminal; elsewhere there is one line for every checkpoint."""
-
-
-class Progress(NamedTuple):
-    """How far a run is: the part done, the same in words, and a count of some unit."""
-
-    done: float
-    words: str
-    count: int
-    unit: str
-
-
-def shear_progress(run: QuasistaticRun) -> Progress:
-    """How far a shear is."""
-    strain, last = run.state.strain, run.choices.strain
-    words = f"strain {strain:.4f} of {last:g}, {len(run.events)} events"
-    return Progress(strain / last, words, len(run.curve), "states")
-
-
-def release_progress(run: ReleaseRun) -> Progress:
-    """How far a release is."""
-    square = run.records[-1].mean_square_displacement
-    words = f"{run.steps} of {run.last_step} steps, M = {square:.1e}"
-    return Progress(run.steps / run.last_step, words, run.steps, "steps")
 
 
 def fingerprint(block: Block) -> str:
@@ -67,13 +42,10 @@ class CheckpointFiles(Generic[Run]):
         output: the file that will hold the finished block.
         start: everything that a run depends on besides the code: law, choices, packings.
         seconds: least time between two checkpoints of a run.
-        progress: says how far a run is.
     """
 
-    def __init__(
-        self, output: Path, start: tuple, seconds: float, progress: Callable[[Run], Progress]
-    ):
-        self._output, self._seconds, self._progress = output, seconds, progress
+    def __init__(self, output: Path, start: tuple, seconds: float):
+        self._output, self._seconds = output, seconds
         self._mark = (code_version(), start)
         self._files: set[Path] = set()
 
@@ -81,7 +53,7 @@ class CheckpointFiles(Generic[Run]):
         """The saved run of this name, if this code saved one from the same start."""
         run = self._read(self._path(name))
         self._started = self._saved_at = self._printed_at = time.monotonic()
-        self._first = self._progress(run) if run else Progress(0.0, "", 0, "")
+        self._first = run.progress if run else Progress(0.0, "", 0, "")
         return run
 
     def _read(self, path: Path) -> Run | None:
@@ -117,7 +89,7 @@ class CheckpointFiles(Generic[Run]):
 
     def _print_progress(self, name: str, run: Run, now: float) -> None:
         self._printed_at = now
-        first, here, elapsed = self._first, self._progress(run), now - self._started
+        first, here, elapsed = self._first, run.progress, now - self._started
         gain = here.done - first.done
         left = (1.0 - here.done) / gain * elapsed if gain > 0.0 else float("inf")
         speed = (here.count - first.count) / elapsed

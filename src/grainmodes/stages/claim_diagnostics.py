@@ -27,8 +27,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.hessian import effective_hessian
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing, find_contacts
-from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.protocol import Protocol
+from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.compression.frictional_compression import frictional_compression
 from grainmodes.protocols.shear.step_strain import forward_rigidity
@@ -64,20 +63,21 @@ class Attempts:
             return instead
 
 
-def claim_diagnostics_block(packings: Block, law: ContactLaw, protocol: Protocol) -> Block:
-    """Every probe of every packing; a packing without balance is a row without numbers."""
+def claim_diagnostics_block(
+    packings: Block, law: ContactLaw, rattlers: Rattlers, step: StepStrain
+) -> Block:
+    """All diagnostics of every packing; a packing that is not in balance has no numbers."""
     sentences: dict[str, str] = {}
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, Interaction.from_law(law))
         attempt = Attempts()
-        probed = probes(packing, law, protocol, attempt) if jammed else unjammed(packing, law)
+        probed = probes(packing, law, rattlers, step, attempt) if jammed else unjammed(packing, law)
         if attempt.sentences:
             sentences[str(seed_of(packings, number))] = "; ".join(attempt.sentences)
         return {"diagnostic_strain": STRAINS, "converged": True} | probed
 
-    parts = {"rattlers": protocol.rattlers, "step_strain": protocol.step_strain}
-    config = {"law": asdict(law)} | {name: asdict(part) for name, part in parts.items()}
+    config = {"law": asdict(law), "rattlers": asdict(rattlers), "step_strain": asdict(step)}
     block = response_block(packings, "claim_diagnostics", config, law, sample)
     failures = block.attributes["failures"] | sentences
     return Block(block.variables, block.attributes | {"failures": failures})
@@ -94,14 +94,14 @@ def unjammed(packing: Packing, law: ContactLaw) -> dict[str, object]:
 
 
 def probes(
-    packing: Packing, law: ContactLaw, protocol: Protocol, attempt: Attempts
+    packing: Packing, law: ContactLaw, rattlers: Rattlers, step: StepStrain, attempt: Attempts
 ) -> dict[str, object]:
     """The row of a jammed packing; what failed is NaN and stands in `attempt.sentences`."""
-    interaction, threshold = Interaction.from_law(law), protocol.rattlers.largest(law)
+    interaction, threshold = Interaction.from_law(law), rattlers.largest(law)
     row = {
         "g_forward_by_strain": [
-            attempt(np.nan, forward_rigidity, packing, interaction, step, threshold)
-            for step in _steps(protocol.step_strain)
+            attempt(np.nan, forward_rigidity, packing, interaction, sized, threshold)
+            for sized in _steps(step)
         ],
         "hessian_difference": attempt(np.nan, hessian_difference, packing, interaction, "tangent"),
         "hessian_printed_difference": attempt(
@@ -112,7 +112,7 @@ def probes(
         row["g_translational"] = attempt(
             np.nan, translational_rigidity, packing, interaction, threshold
         )
-    return row | _frictional(packing, law, protocol.step_strain, attempt)
+    return row | _frictional(packing, law, step, attempt)
 
 
 def _steps(step: StepStrain) -> list[StepStrain]:

@@ -29,7 +29,7 @@ from grainmodes.stages.samples import jammed_packing
 
 
 def complex_pairs_block(
-    packings: Block, law: ContactLaw, shear: Shear, asked: PairChoices
+    packings: Block, law: ContactLaw, shear: Shear, choices: PairChoices
 ) -> Block:
     """The complex pairs of every packing up to the last strain of `shear`."""
     interaction = Interaction.from_law(law)
@@ -38,12 +38,12 @@ def complex_pairs_block(
         packing, jammed = jammed_packing(packings, number, interaction)
         if not jammed:
             return {"pair_state_count": 0, "jammed": False, "converged": True}
-        walk = PairWalk.start(packing, interaction, shear, asked)
+        walk = PairWalk.start(packing, interaction, shear, choices)
         ending = _walked(walk)
         return row_of(walk) | ({} if walk.done else {"failure": ending})
 
     used = {name: value for name, value in asdict(shear).items() if name not in NOT_USED}
-    config = {"law": asdict(law), "shear": used, "complex_pairs": asdict(asked)}
+    config = {"law": asdict(law), "shear": used, "complex_pairs": asdict(choices)}
     return response_block(packings, "complex_pairs", config, law, sample)
 
 

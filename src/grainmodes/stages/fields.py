@@ -13,7 +13,7 @@ import numpy as np
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
-from grainmodes.parameters.fields import MOST_FOR_ALL_MODES
+from grainmodes.parameters.fields import MOST_FOR_ALL_MODES, field_frequencies
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain_field import simulated_field
@@ -27,9 +27,8 @@ def fields_block(
     law: ContactLaw,
     rattlers: Rattlers,
     step: StepStrain,
-    frequencies: tuple[float, ...],
 ) -> Block:
-    """The fields of the first sample of a block, and its modes nearest to `frequencies` (1/t_0)."""
+    """The fields of the first sample of a block, and its modes nearest to A's frequencies."""
     interaction, threshold = Interaction.from_law(law), rattlers.largest(law)
 
     def sample(number: int) -> dict[str, object]:
@@ -41,7 +40,7 @@ def fields_block(
         row["nonaffine_field_simulated"] = simulated_field(packing, interaction, step, threshold)
         if packing.n <= MOST_FOR_ALL_MODES:
             row["nonaffine_field_mode_sum"] = mode_sum_field(packing, interaction, threshold)
-        return row | _modes(packing, interaction, frequencies, threshold)
+        return row | _modes(packing, interaction, field_frequencies(law.kt), threshold)
 
     config = {"law": asdict(law), "rattlers": asdict(rattlers), "step_strain": asdict(step)}
     return response_block(first_sample(packings), "fields", config, law, sample)

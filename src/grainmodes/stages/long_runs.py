@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol, TypeVar
 
+from grainmodes.runtime.progress import Progress
+
 
 class LongRun(Protocol):
     """A simulation that goes on step by step and can be pickled between two steps."""
@@ -21,6 +23,10 @@ class LongRun(Protocol):
     @property
     def restartable(self) -> bool:
         """Whether the run, read back from a checkpoint here, ends with the same bytes."""
+
+    @property
+    def progress(self) -> Progress:
+        """How far the run is."""
 
     def advance(self) -> bool:
         """Take one step; False if no step is possible."""

@@ -7,29 +7,25 @@ from grainmodes.ensemble.point import merge_blocks
 from grainmodes.parameters.grid import checkpoints_up_to
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.protocol import Protocol
-from grainmodes.stages import packings as stages
-from grainmodes.stages.spectrum import spectrum_block
+from grainmodes.parameters.stages import STAGES, Observables, requested
+from grainmodes.stages import load
+from grainmodes.stages.compression import compress_block, packing_block
 
 
 def point_block(
-    n: int, phi: float, law: ContactLaw, seeds: range, protocol: Protocol, spectrum: str
+    n: int, phi: float, law: ContactLaw, seeds: range, protocol: Protocol, observables: Observables
 ) -> Block:
-    """Every observable of the point (n, φ, k_T) for some seeds.
+    """Every requested observable of the point (n, φ, k_T) that a point gathers, for some seeds.
 
     The packings go through the same checkpoints as in a study, so the numbers are the same.
-    `spectrum` is one of `parameters.spectra.SPECTRA`.
     """
     start = None
     for checkpoint in checkpoints_up_to(phi):
-        start = stages.compress_block(n, seeds, checkpoint, protocol.compression, law.normal, start)
-    packings = stages.packing_block(start, phi, protocol.compression, law.normal)
-    parts = {
-        "packings": packings,
-        "rigidity": stages.rigidity_block(packings, law, protocol.rattlers),
-        "step_strain": stages.step_strain_block(packings, law, protocol.step_strain),
-    }
-    if spectrum != "none":
-        parts["spectrum"] = spectrum_block(
-            packings, law, protocol.rattlers, spectrum, protocol.spectrum
-        )
-    return merge_blocks(parts)
+        start = compress_block(n, seeds, checkpoint, protocol.compression, law.normal, start)
+    packings = packing_block(start, phi, protocol.compression, law.normal)
+    made = {STAGES["equilibrate"].name: packings}
+    for stage in requested(observables, law.kt):
+        if not stage.single_sample:
+            keywords = stage.keywords(protocol, observables)
+            made[stage.name] = load(stage.function)(made[stage.reads], law, **keywords)
+    return merge_blocks(made)

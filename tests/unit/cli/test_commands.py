@@ -110,11 +110,11 @@ def test_bad_usage(capsys, words, sentence):
         ([*SMALL, "--kt", "-1"], "--kt: expected a number from 0.0"),
         (
             [*SMALL, "--kt", "1", "--friction-coefficient", "1"],
-            "--friction-coefficient: expected none for the tangential law 'elastic'",
+            "contact_law.friction_coefficient: expected none for the tangential law 'elastic'",
         ),
         (
             [*SMALL, "--kt", "1", "--tangential", "sharp_coulomb"],
-            "--friction-coefficient: expected a number above 0",
+            "contact_law.friction_coefficient: expected a number above 0",
         ),
         ([*SMALL, "--kt", "1", "--settings", '{"protocol": {"x": 1}}'], "unknown key 'x'"),
         ([*SMALL, "--kt", "1", "--settings", '{"seed": 1}'], "unknown key 'seed'"),

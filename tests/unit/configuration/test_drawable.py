@@ -2,7 +2,7 @@
 
 import pytest
 
-from grainmodes.configuration import ConfigurationError, scene_of
+from grainmodes.configuration import ConfigurationError, scene_from
 from grainmodes.configuration.grids import TOGETHER, lacking
 from grainmodes.configuration.rules import NEEDED
 from grainmodes.parameters.figures import FIGURES, Figure
@@ -27,7 +27,7 @@ def test_figures_follow_the_observables():
     )
     config = {"study": "s", "grids": [GRID | {"observables": nothing}], "figures": ["dos"]}
     with pytest.raises(ConfigurationError, match=r"'dos' needs observables\.spectrum"):
-        scene_of(config)
+        scene_from(config)
 
 
 def test_every_need_of_a_figure_has_its_words():

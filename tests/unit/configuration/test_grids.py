@@ -1,13 +1,13 @@
 """Points, blocks and observables, grid by grid."""
 
-from grainmodes.configuration import scene_of
+from grainmodes.configuration import scene_from
 from grainmodes.parameters.grid import Point
-from scenes import GRID, ONLY_G, ONLY_SPECTRA, WITH_RATTLERS, scene_of_grids, scene_with
+from scenes import GRID, ONLY_G, WITH_RATTLERS, scene_of_grids, scene_with
 
 
 def test_frictionless_scenes_have_no_stiffness():
     grid = {name: value for name, value in GRID.items() if name != "kt"}
-    scene = scene_of({"study": "f", "grids": [grid], "effects": {"friction": False}})
+    scene = scene_from({"study": "f", "grids": [grid], "effects": {"friction": False}})
     assert scene.grids[0].kt == (0.0,)
     assert not scene.law_at(0.0).frictional
     assert set(scene.figures) == {"g_phi", "g_nonaffine", "dos"}
@@ -18,7 +18,7 @@ def test_points_come_grid_by_grid():
     scene = scene_of_grids({}, {"n": [128], "phi": [0.9], "observables": fields})
     assert len(scene.points) == len(set(scene.points)) == 10
     assert scene.points[:3] == [Point(16, 0.84, 1e-4), Point(16, 0.84, 1.0), Point(16, 0.9, 1e-4)]
-    assert scene.field_points == [Point(128, 0.9, 1e-4), Point(128, 0.9, 1.0)]
+    assert scene.points_of("fields") == [Point(128, 0.9, 1e-4), Point(128, 0.9, 1.0)]
 
 
 def stages_with(**observables) -> list[str]:
@@ -47,12 +47,6 @@ def test_grids_have_their_own_observables_and_seeds():
     for off in [(32, 0.9, 1.0), (16, 0.85, 1e-4), (16, 0.873, 1.0)]:
         assert scene.responses(*off) == ["rigidity", "step_strain"]
         assert len(scene.blocks_of(*off)) == 2
-
-
-def test_kinds_of_spectra_belong_to_grids():
-    scene = scene_of_grids(ONLY_SPECTRA, ONLY_G | {"phi": [0.85]})
-    assert scene.spectrum_kind(16, 0.9, 1.0) == "counts"
-    assert scene.spectrum_kind(16, 0.85, 1.0) == "modes"
 
 
 def test_without_rotation_there_is_no_other_hessian():

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grainmodes.configuration import ConfigurationError, read_scene, scene_of
+from grainmodes.configuration import ConfigurationError, read_scene, scene_from
 from grainmodes.configuration.grid_rules import AREA_PER_GRAIN
 from scenes import GRID, scene_of_grids, scene_with
 
@@ -118,7 +118,7 @@ def test_all_mistakes_are_reported_at_once():
 )
 def test_hardly_a_configuration(config):
     with pytest.raises(ConfigurationError):
-        scene_of(config)
+        scene_from(config)
 
 
 @pytest.mark.parametrize("text", ["", "- 1", "study: [", "\x00"])
@@ -134,7 +134,7 @@ def test_a_box_holds_no_pair_twice(half, phi):
     wide_enough = (2 * half * AREA_PER_GRAIN / phi) ** 0.5 >= 2.0
     grid = {"n": [2 * half], "phi": [phi], "kt": [1.0], "seeds": 1}
     try:
-        scene_of({"study": "box", "grids": [grid]})
+        scene_from({"study": "box", "grids": [grid]})
     except ConfigurationError as error:
         assert not wide_enough
         assert "two images" in str(error)
@@ -157,7 +157,7 @@ def test_grids_of_one_n_share_their_files_of_seeds():
         scene_of_grids({}, apart | {"seeds": 3}, seeds_per_job=2)
     assert str(caught.value) == (
         "grids[1].seeds: expected 4 as in grids[0], or the smaller of both a multiple of "
-        "block = 2, because both share the files of n = 64, got 3"
+        "seeds_per_job = 2, because both share the files of n = 64, got 3"
     )
     assert scene_of_grids({}, apart | {"seeds": 2}, seeds_per_job=2)
     assert scene_of_grids({"seeds": 3}, apart | {"seeds": 2}, seeds_per_job=2)

@@ -5,61 +5,68 @@ from dataclasses import asdict
 
 import pytest
 
-from grainmodes.configuration import scene_of
-from scenes import (
-    GRID,
-    scene_with,
-)
+from grainmodes.configuration import stage_settings
+from grainmodes.parameters.stages import STAGES as TABLE
+from scenes import scene_of_grids, scene_with
 
 SPECTRA = {"spectrum", "spectrum_rattlers", "spectrum_hessian"}
 SHEARED = {"shear", "event_detail", "complex_pairs"}
-STAGES = [
-    *("compress", "rigidity", "step_strain", "fields", "claim_diagnostics", "release", "ensemble"),
-    *sorted(SPECTRA | SHEARED),
-]
+STAGES = [*TABLE, "ensemble"]
 DEPENDENCE = {
-    "protocol.compression.phi_step": (5e-5, {"compress", "ensemble"}),
-    "protocol.compression.large_diameter": (1.4, {"compress", "ensemble"}),
-    "protocol.compression.masses": ("equal", {"compress", "ensemble"}),
+    "protocol.compression.phi_step": (5e-5, {"compress", "equilibrate", "ensemble"}),
+    "protocol.compression.large_diameter": (1.4, {"compress", "equilibrate", "ensemble"}),
+    "protocol.compression.masses": ("equal", {"compress", "equilibrate", "ensemble"}),
     "protocol.rattlers.threshold": (
         1,
-        {"rigidity", "fields", "claim_diagnostics", "ensemble"} | SPECTRA,
+        {"rigidity", "fields", "claim_diagnostics", "spectrum", "spectrum_hessian", "ensemble"},
     ),
     "protocol.step_strain.strain": (
         1e-5,
         {"step_strain", "fields", "claim_diagnostics", "ensemble"},
     ),
-    "protocol.shear.strain": (0.2, SHEARED | {"ensemble"}),
+    "protocol.shear.strain": (0.2, SHEARED | {"law_comparison", "ensemble"}),
     "protocol.release.initial_velocity": (0.0, {"release", "ensemble"}),
     "protocol.complex_pairs.max_located": (2, {"complex_pairs", "ensemble"}),
     "protocol.spectrum.bin_density": (1.0, SPECTRA | {"ensemble"}),
     "contact_law.normal": ("harmonic", set(STAGES)),
     "grid.seeds": (8, set()),
-    "grid.observables": ({"spectrum": "eigenvalues"}, set()),
+    "grid.observables": ({"spectrum": "eigenvalues"}, {"spectrum", "spectrum_rattlers"}),
     "seeds_per_job": (2, set()),
     "figures": (["g_phi"], set()),
 }
+
+
+def settings(scene, stage: str) -> str:
+    return scene.summary() if stage == "ensemble" else scene.settings(stage)
 
 
 @pytest.mark.parametrize("key", DEPENDENCE)
 def test_a_stage_sees_only_what_it_depends_on(key):
     value, affected = DEPENDENCE[key]
     before, after = scene_with(), scene_with(key, value)
-    changed = {stage for stage in STAGES if before.settings(stage) != after.settings(stage)}
+    changed = {stage for stage in STAGES if settings(before, stage) != settings(after, stage)}
     assert changed == affected
 
 
-def test_the_kind_of_a_spectrum_is_a_setting_of_spectra_alone():
-    scene = scene_with()
-    changed = {s for s in STAGES if scene.settings(s, "modes") != scene.settings(s, "counts")}
-    assert changed == {"spectrum", "spectrum_rattlers"}
+def test_observables_are_those_of_the_grid_of_the_point():
+    first = {"observables": {"spectrum": "counts", "shear": True, "coarse_run": True}}
+    scene = scene_of_grids(first, {"phi": [0.85], "observables": {"spectrum": "none"}})
+    kinds = {phi: json.loads(scene.settings("spectrum", (16, phi, 1.0))) for phi in (0.9, 0.85)}
+    assert kinds[0.9]["observables"] == {"spectrum": "counts"}
+    assert kinds[0.85]["observables"] == {"spectrum": "modes"}  # requested by its path alone
+    coarse = [json.loads(scene.settings("shear", (16, phi, 1.0))) for phi in (0.9, 0.85)]
+    assert [part["observables"] for part in coarse] == [{"coarse_run": True}, {"coarse_run": False}]
 
 
-@pytest.mark.parametrize("stage", STAGES)
-def test_settings_are_a_piece_of_a_configuration(stage):
-    settings = json.loads(scene_with("protocol.rattlers.threshold", 1).settings(stage))
-    grid = GRID | {"observables": settings.pop("observables", {})}
-    scene = scene_of({**settings, "study": "small", "grids": [grid]})
-    parts = json.loads(json.dumps(asdict(scene.protocol)))
-    for name, part in settings["protocol"].items():
+@pytest.mark.parametrize("stage", TABLE)
+def test_a_command_reads_the_settings_that_its_rule_writes(stage):
+    scene = scene_with("protocol.rattlers.threshold", 1)
+    given = json.loads(scene.settings(stage))
+    read = stage_settings(given, kt=1.0)
+    parts = json.loads(json.dumps(asdict(read.protocol)))
+    for name, part in given["protocol"].items():
         assert parts[name] == part
+    assert read.law.normal == scene.law.normal
+    assert all(
+        read.observables[name] == value for name, value in given.get("observables", {}).items()
+    )

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cost_fixtures import TABLE
-from grainmodes.cost import Law, read_table
+from grainmodes.cost import GrowthLaw, read_table
 from grainmodes.cost.work import work
 from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.spectra import SpectrumChoices
@@ -14,7 +14,7 @@ from measurements.benchmarks import growth, growth_laws
 
 
 def test_a_law_is_a_power_of_n():
-    law = Law(2.0, 1.5, 10.0, 1.0, up_to=4096)
+    law = GrowthLaw(2.0, 1.5, 10.0, 1.0, up_to=4096)
     assert law.seconds_at(1024) == 2.0
     assert law.seconds_at(4096) == pytest.approx(2.0 * 8)
     assert law.megabytes_at(512) == pytest.approx(5.0)

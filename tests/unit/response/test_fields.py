@@ -207,7 +207,6 @@ def test_a_block_holds_the_fields_of_its_first_sample():
         LAW,
         Rattlers(),
         StepStrain(),
-        (0.1, 1.0),
     )
     assert block.variables["seed"].tolist() == [0]
     assert (block.attributes["stage"], block.attributes["kt"]) == ("fields", 1e-2)
@@ -221,15 +220,15 @@ def test_a_block_holds_the_fields_of_its_first_sample():
     }
     for name, field in fields.items():
         assert_allclose(block.variables[name][0], field, atol=1e-8)
-    assert_array_equal(block.variables["frequency_asked"], [[0.1, 1.0]])
-    assert block.variables["eigenvector"].shape == (1, 2, 16, 3)
+    assert_array_equal(block.variables["frequency_asked"], [[0.013, 0.1, 1.0]])
+    assert block.variables["eigenvector"].shape == (1, 3, 16, 3)
     assert block.variables["residual"][0] < 1e-13
     assert_array_equal(block.variables["position"][0], packing.position)
 
 
 def test_all_modes_are_left_out_where_they_would_take_hours(monkeypatch):
     monkeypatch.setattr(fields, "MOST_FOR_ALL_MODES", 15)
-    block = fields_block(packings(reference(MINIMAL[0])[1]), LAW, Rattlers(), StepStrain(), (1.0,))
+    block = fields_block(packings(reference(MINIMAL[0])[1]), LAW, Rattlers(), StepStrain())
     assert "nonaffine_field_mode_sum" not in block.variables
     assert "nonaffine_field_simulated" in block.variables
 
@@ -238,13 +237,13 @@ def test_what_is_not_jammed_has_places_only():
     packing = reference(MINIMAL[0])[1]
     apart = replace(packing, box_length=2 * packing.box_length)
     assert len(find_contacts(apart).i) == 0
-    block = fields_block(packings(apart), LAW, Rattlers(), StepStrain(), (1.0,))
+    block = fields_block(packings(apart), LAW, Rattlers(), StepStrain())
     assert (block.variables["jammed"][0], block.variables["converged"][0]) == (0, 1)
     assert "position" in block.variables and "nonaffine_field" not in block.variables
 
 
 def test_a_sample_that_fails_says_why():
     step = StepStrain(force_tolerance=1e-30)
-    block = fields_block(packings(reference(MINIMAL[0])[1]), LAW, Rattlers(), step, (1.0,))
+    block = fields_block(packings(reference(MINIMAL[0])[1]), LAW, Rattlers(), step)
     assert block.variables["converged"][0] == 0
     assert "step strain" in block.attributes["failures"]["0"]

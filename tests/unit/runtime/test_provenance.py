@@ -10,10 +10,10 @@ import pytest
 from grainmodes.runtime import environment, provenance
 
 STAGES = {
-    "compress": "grainmodes.stages.packings:compress_block",
-    "equilibrate": "grainmodes.stages.packings:packing_block",
-    "rigidity": "grainmodes.stages.packings:rigidity_block",
-    "step_strain": "grainmodes.stages.packings:step_strain_block",
+    "compress": "grainmodes.stages.compression:compress_block",
+    "equilibrate": "grainmodes.stages.compression:packing_block",
+    "rigidity": "grainmodes.stages.rigidity:rigidity_block",
+    "step_strain": "grainmodes.stages.step_strain:step_strain_block",
     "spectrum": "grainmodes.stages.spectrum:spectrum_block",
     "fields": "grainmodes.stages.fields:fields_block",
     "point": "grainmodes.ensemble:gather_point",

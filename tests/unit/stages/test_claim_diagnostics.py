@@ -13,8 +13,7 @@ from grainmodes.kernels.damping import Dashpot, Undamped
 from grainmodes.kernels.laws import Hertz
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing, find_contacts
-from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.protocol import Protocol
+from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.compression.frictional_compression import (
     expanded_to_contact,
@@ -41,9 +40,10 @@ def block(*packed_packings: Packing) -> Block:
     return block_of(range(len(rows)), rows.__getitem__, {}, point | {"stage": "packings"})
 
 
-def row(packing: Packing, kt: float, protocol: Protocol | None = None) -> Block:
+def row(packing: Packing, kt: float, step: StepStrain | None = None) -> Block:
     law = ContactLaw("hertz", "elastic", kt)
-    return claim_diagnostics.claim_diagnostics_block(block(packing), law, protocol or Protocol())
+    step = step or StepStrain()
+    return claim_diagnostics.claim_diagnostics_block(block(packing), law, Rattlers(), step)
 
 
 def loose(packing: Packing) -> Packing:
@@ -188,7 +188,7 @@ def test_a_probe_that_fails_leaves_its_sentence_and_the_others(monkeypatch):
 
     monkeypatch.setattr(claim_diagnostics, "frictional_compression", hopeless)
     short = StepStrain(relaxation="damped", max_steps=40)
-    found = row(reference(SMALL)[1], KT, Protocol(step_strain=short))
+    found = row(reference(SMALL)[1], KT, short)
     sentence = found.attributes["failures"]["0"]
     assert sentence.count("forward_rigidity: max|F| =") == 3
     assert sentence.endswith("compressed_pairs: it did not end")
@@ -200,7 +200,7 @@ def test_a_probe_that_fails_leaves_its_sentence_and_the_others(monkeypatch):
 def test_the_command_writes_what_the_function_finds(tmp_path):
     packings = block(reference(SMALL)[1])
     write_block(tmp_path / "packings.nc", packings)
-    words = ["claim_diagnostics", str(tmp_path / "packings.nc"), "--kt", "0"]
+    words = ["claim-diagnostics", str(tmp_path / "packings.nc"), "--kt", "0"]
     rattlers = json.dumps({"protocol": {"rattlers": {"threshold": 1}}})
     assert main([*words, "--settings", rattlers, "-o", str(tmp_path / "probes.nc")]) == 0
     written = read_block(tmp_path / "probes.nc")

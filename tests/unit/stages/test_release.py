@@ -18,7 +18,7 @@ from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.release import Release
 from grainmodes.protocols.release.release_run import FRAMES, ReleaseRun
-from grainmodes.stages.checkpoints import CheckpointFiles, release_progress
+from grainmodes.stages.checkpoints import CheckpointFiles
 from grainmodes.stages.release import release_block, unstable_state
 from released import complex_pairs_block, state
 
@@ -138,18 +138,13 @@ def test_a_killed_release_goes_on_and_ends_with_the_same_bytes(tmp_path):
 
 def test_a_line_says_how_far_a_run_is(tmp_path, capsys):
     start, law, interaction = state()
-    checkpoints = CheckpointFiles(tmp_path / "x.nc", (law, CHOICES), -1.0, release_progress)
+    checkpoints = CheckpointFiles(tmp_path / "x.nc", (law, CHOICES), -1.0)
     run = checkpoints.load("seed-0-0") or ReleaseRun.from_state(start, interaction, CHOICES)
     run.advance()
     checkpoints.save_if_due("seed-0-0", run)
     pattern = r"seed-0-0: 1 of \d+ steps, M = .*, \d+ steps per second, \d+ min left\n"
     assert re.fullmatch(pattern, capsys.readouterr().err)
-    assert (
-        CheckpointFiles(tmp_path / "x.nc", (law, CHOICES), 1.0, release_progress)
-        .load("seed-0-0")
-        .steps
-        == 1
-    )
+    assert CheckpointFiles(tmp_path / "x.nc", (law, CHOICES), 1.0).load("seed-0-0").steps == 1
 
 
 def test_other_files_are_refused(tmp_path, capsys):

@@ -22,7 +22,7 @@ from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
-from grainmodes.stages.checkpoints import CheckpointFiles, fingerprint, shear_progress
+from grainmodes.stages.checkpoints import CheckpointFiles, fingerprint
 from grainmodes.stages.rows import block_of
 from grainmodes.stages.samples import packed
 from grainmodes.stages.shear import shear_block
@@ -137,7 +137,7 @@ def test_a_killed_shear_goes_on_and_ends_with_the_same_bytes(tmp_path):
 
 def files(folder, start: tuple, seconds: float = 1.0) -> CheckpointFiles:
     """The checkpoints of a file in a folder."""
-    return CheckpointFiles(folder / "x.nc", start, seconds, shear_progress)
+    return CheckpointFiles(folder / "x.nc", start, seconds)
 
 
 def test_a_run_of_other_choices_or_a_broken_file_is_ignored(tmp_path):

@@ -2,32 +2,21 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
 from grainmodes.cli.arguments import options
 from grainmodes.parameters.law import NORMAL_LAWS, TANGENTIAL_LAWS
 from grainmodes.parameters.spectra import SPECTRA
+from grainmodes.parameters.stages import STAGES, Stage, responses
 
 
 def define(commands) -> None:
     """Add these commands, in the order in which a sample passes them."""
-    for add in (
-        _compress,
-        _pack,
-        _rigidity,
-        _step_strain,
-        _spectrum,
-        _fields,
-        _probes,
-        _shear,
-        _event_detail,
-        _pairs,
-        _release,
-        _variants,
-        _point,
-    ):
-        add(commands)
+    _compress(commands)
+    _equilibrate(commands)
+    for stage in responses():
+        _response(commands, stage)
+    _point(commands)
 
 
 def _compress(commands) -> None:
@@ -48,7 +37,7 @@ def _compress(commands) -> None:
     options.output(command)
 
 
-def _pack(commands) -> None:
+def _equilibrate(commands) -> None:
     sentence = "Bring a checkpoint to an area fraction, in force balance."
     command = options.command(commands, "equilibrate", "stages:equilibrate", sentence)
     command.add_argument("start", type=Path, help="the checkpoint at or below --phi")
@@ -57,80 +46,24 @@ def _pack(commands) -> None:
     options.output(command)
 
 
-def _rigidity(commands) -> None:
-    sentence = "Rigidity of packings from linear response."
-    _response(commands, "rigidity", "stages:rigidity", sentence)
-
-
-def _step_strain(commands) -> None:
-    sentence = "Rigidity of packings from a simulated step strain."
-    _response(commands, "step-strain", "stages:step_strain", sentence)
-
-
-def _spectrum(commands) -> None:
-    sentence = "Eigenvalues of the Jacobian of packings, and what is measured on eigenvectors."
-    command = _response(commands, "spectrum", "stages:spectrum", sentence)
-    command.add_argument(
-        "--variant",
-        choices=("backbone", "rattlers", "hessian"),
-        default="backbone",
-        help="J without its rattlers, J with them, or the effective Hessian",
-    )
-    command.add_argument(
-        "--processes",
-        type=options.positive,
-        default=1,
-        help="processes that share the windows of a J",
-    )
-
-
-def _fields(commands) -> None:
-    sentence = "Displacement fields and single eigenvectors of the first of some packings."
-    _response(commands, "fields", "stages:fields", sentence)
-
-
-def _probes(commands) -> None:
-    sentence = "What single claims of paper A need, probed on packings."
-    _response(commands, "claim-diagnostics", "stages:claim_diagnostics", sentence)
-
-
-def _shear(commands) -> None:
-    sentence = "Quasistatic shear of packings, with every event between two states."
-    options.checkpoint_every(_response(commands, "shear", "stages:shear", sentence))
-
-
-def _event_detail(commands) -> None:
-    sentence = "The first event in the shear of the first of some packings, looked at closely."
-    _response(commands, "event-detail", "stages:event_detail", sentence)
-
-
-def _pairs(commands) -> None:
-    sentence = "Complex pairs of eigenvalues along the shear of packings, born, followed, dead."
-    _response(commands, "complex-pairs", "stages:complex_pairs", sentence)
-
-
-def _release(commands) -> None:
-    sentence = "Dynamics from the unstable states of sheared samples, without damping and with."
-    command = options.command(commands, "release", "stages:release", sentence)
-    command.add_argument("pairs", type=Path, help="file of `grainmodes complex-pairs`")
+def _response(commands, stage: Stage) -> None:
+    """The command of an entry of the table of stages."""
+    read = STAGES[stage.reads]
+    command = options.command(commands, stage.command, "stages:response", stage.sentence)
+    help_text = f"file of `grainmodes {read.command}`"
+    command.add_argument("block", type=Path, metavar=read.output, help=help_text)
     options.kt(command)
     options.settings(command)
-    options.checkpoint_every(command)
+    if stage.parallel:
+        command.add_argument(
+            "--processes",
+            type=options.positive,
+            default=1,
+            help="processes that share the slices of a spectrum",
+        )
+    if stage.resumable:
+        options.checkpoint_every(command)
     options.output(command)
-
-
-def _variants(commands) -> None:
-    sentence = "Complex pairs of sheared packings under every tangential law, side by side."
-    _response(commands, "law-comparison", "stages:law_comparison", sentence)
-
-
-def _response(commands, name: str, run: str, sentence: str) -> argparse.ArgumentParser:
-    command = options.command(commands, name, run, sentence)
-    command.add_argument("packings", type=Path, help="file of `grainmodes equilibrate`")
-    options.kt(command)
-    options.settings(command)
-    options.output(command)
-    return command
 
 
 def _point(commands) -> None:

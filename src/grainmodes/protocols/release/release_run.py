@@ -32,6 +32,7 @@ from grainmodes.protocols.release.record import MotionRecord, record_motion
 from grainmodes.protocols.release.unstable_state import UnstableState
 from grainmodes.relaxation.dynamics import Motion, move
 from grainmodes.response.stability import eigenvalues
+from grainmodes.runtime.progress import Progress
 
 DENSE_TURNS, RECORDS_PER_TURN = 12, 24
 """Turns of 2π/ω_r that are recorded densely, and the number of records in each."""
@@ -95,6 +96,13 @@ class ReleaseRun:
 
     restartable = True
     """The state of a run between two records alone determines what follows."""
+
+    @property
+    def progress(self) -> Progress:
+        """How far the release is."""
+        square = self.records[-1].mean_square_displacement
+        words = f"{self.steps} of {self.last_step} steps, M = {square:.1e}"
+        return Progress(self.steps / self.last_step, words, self.steps, "steps")
 
     def advance(self) -> bool:
         """Go on to the next record, which is always possible: True.

@@ -29,6 +29,7 @@ from grainmodes.protocols.shear.events import (
 )
 from grainmodes.protocols.shear.sheared_state import CurvePoint, ShearedState
 from grainmodes.protocols.shear.strain_step import first_balance, step_to
+from grainmodes.runtime.progress import Progress
 
 
 @dataclass
@@ -68,6 +69,13 @@ class QuasistaticRun:
     def done(self) -> bool:
         """Whether the last strain is reached."""
         return self.state.strain_units >= self._last_units
+
+    @property
+    def progress(self) -> Progress:
+        """How far the shear is."""
+        strain, last = self.state.strain, self.choices.strain
+        words = f"strain {strain:.4f} of {last:g}, {len(self.events)} events"
+        return Progress(strain / last, words, len(self.curve), "states")
 
     @property
     def restartable(self) -> bool:

@@ -1,0 +1,269 @@
+"""The table of stages: everything that a study can compute, one entry each.
+
+A stage takes a block of samples and returns a block of samples. From its entry follow
+
+| what                   | where it is made                                                      |
+| ---------------------- | --------------------------------------------------------------------- |
+| the command            | `cli/arguments/stages.py`: `grainmodes step-strain PACKINGS --kt …`   |
+| the settings it sees   | `configuration/scene.py`, `configuration/stage_settings.py`           |
+| the rule and its files | `workflow/rules/response.smk`: `results/<study>/step_strain/…`        |
+| the key of a scene     | `configuration/schema.py`: `grids.observables.step_strain`            |
+| what a point gathers   | `ensemble/point.py`                                                   |
+| what a figure may need | `configuration/grids.py`                                              |
+| what it costs          | `cost/work.py`, with the growth law of its name in `cost/costs.yaml`  |
+
+To add an observable: its function in `grainmodes.stages`, its entry here, its variables in
+`grainmodes.dataset`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from grainmodes.parameters.protocol import Protocol
+from grainmodes.parameters.spectra import SPECTRA
+
+Observables = Mapping[str, bool | str]
+"""Key of `grids.observables` → whether it is computed, or which kind of it."""
+
+
+@dataclass(frozen=True)
+class Stage:
+    """An entry of the table.
+
+    Attributes:
+        name: of its rule and of the attribute `stage` of its blocks; its command has dashes.
+        sentence: what it computes, for help texts, messages and the schema.
+        function: `module:function` of the package. It is called with the block that it reads, the
+            contact law and the keywords of `arguments`.
+        observable: key of `grids.observables` that requests it; "" for a stage that others need.
+        arguments: keyword of the function → where its value stands in a scene: `protocol.NAME` or
+            `observables.NAME`. The stage depends on these values and on the contact law alone.
+        default: value of its key where a scene does not say.
+        kinds: values of its key that are no booleans; the first one means "not at all".
+        options: further boolean keys of `grids.observables` that change what it does → meaning.
+        reads: name of the stage whose blocks it takes.
+        folder: of its files; its name if empty.
+        work: how the number of units of its growth law is counted, a key of `cost.work.UNITS`.
+        needs_friction: it does not exist at k_T = 0.
+        single_sample: it keeps the grains of the first sample, to be drawn, and is not gathered.
+        parallel: processes can share one sample of it.
+        resumable: it saves checkpoints of long samples.
+    """
+
+    name: str
+    sentence: str
+    function: str
+    observable: str = ""
+    arguments: Mapping[str, str] = field(default_factory=dict)
+    default: bool | str = False
+    kinds: tuple[str, ...] = ()
+    options: Mapping[str, str] = field(default_factory=dict)
+    reads: str = "equilibrate"
+    folder: str = ""
+    work: str = "sample"
+    needs_friction: bool = False
+    single_sample: bool = False
+    parallel: bool = False
+    resumable: bool = False
+
+    @property
+    def command(self) -> str:
+        """Its name on the command line."""
+        return self.name.replace("_", "-")
+
+    @property
+    def title(self) -> str:
+        """Its name in a sentence."""
+        return self.name.replace("_", " ").capitalize()
+
+    @property
+    def output(self) -> str:
+        """The folder of its files, and the attribute `stage` of its blocks."""
+        return self.folder or self.name
+
+    @property
+    def code(self) -> tuple[str, ...]:
+        """Entries of `runtime.provenance.stage_sources` whose edit changes its results."""
+        return (self.function, *(["grainmodes.stages.checkpoints"] if self.resumable else []))
+
+    def is_requested(self, observables: Observables, kt: float) -> bool:
+        """Whether a point with these observables and this k_T/k_N has the stage."""
+        if not self.observable or (self.needs_friction and not kt > 0.0):
+            return False
+        value = observables[self.observable]
+        return value != self.kinds[0] if self.kinds else bool(value)
+
+    def parts(self, space: str) -> list[str]:
+        """Names of the parts of "protocol" or "observables" that it depends on."""
+        paths = (path.partition(".") for path in self.arguments.values())
+        return [name for root, _, name in paths if root == space]
+
+    def keywords(self, protocol: Protocol, observables: Observables) -> dict[str, object]:
+        """The keywords of its function, with their values in a scene."""
+        places = {name: getattr(protocol, name) for name in self.parts("protocol")}
+        values = {f"protocol.{name}": value for name, value in places.items()}
+        values |= {f"observables.{name}": observables[name] for name in self.parts("observables")}
+        return {keyword: values[path] for keyword, path in self.arguments.items()}
+
+
+SPECTRUM = {"choices": "protocol.spectrum"}
+
+ENTRIES = (
+    Stage(
+        "compress",
+        "Compress grains to a checkpoint of a trajectory.",
+        "grainmodes.stages.compression:compress_block",
+        arguments={"compression": "protocol.compression"},
+        folder="trajectories",
+        reads="compress",
+    ),
+    Stage(
+        "equilibrate",
+        "Bring a checkpoint to an area fraction, in force balance.",
+        "grainmodes.stages.compression:packing_block",
+        arguments={"compression": "protocol.compression"},
+        folder="packings",
+        reads="compress",
+    ),
+    Stage(
+        "rigidity",
+        "Rigidity from linear response, with its affine and non-affine parts.",
+        "grainmodes.stages.rigidity:rigidity_block",
+        "rigidity",
+        arguments={"rattlers": "protocol.rattlers"},
+        default=True,
+    ),
+    Stage(
+        "step_strain",
+        "Rigidity from a simulated and relaxed step strain.",
+        "grainmodes.stages.step_strain:step_strain_block",
+        "step_strain",
+        arguments={"step": "protocol.step_strain"},
+        default=True,
+    ),
+    Stage(
+        "spectrum",
+        "Spectrum of the Jacobian: numbers of modes in bins (counts), with psi and p of each bin "
+        "(binned_averages); every eigenvalue, with psi and p of every eigenvector (modes).",
+        "grainmodes.stages.spectrum:spectrum_block",
+        "spectrum",
+        arguments={"rattlers": "protocol.rattlers", "kind": "observables.spectrum"} | SPECTRUM,
+        default="modes",
+        kinds=SPECTRA,
+        work="spectrum",
+        parallel=True,
+    ),
+    Stage(
+        "spectrum_rattlers",
+        "The spectrum once more, with the rattlers left in the Jacobian.",
+        "grainmodes.stages.spectrum:rattlers_block",
+        "rattlers",
+        arguments={"kind": "observables.spectrum"} | SPECTRUM,
+        work="spectrum",
+        parallel=True,
+    ),
+    Stage(
+        "spectrum_hessian",
+        "Density of states of the effective Hessian of paper A's Appendix H.",
+        "grainmodes.stages.spectrum:hessian_block",
+        "hessian",
+        arguments={"rattlers": "protocol.rattlers"} | SPECTRUM,
+        work="two spectra",
+        needs_friction=True,
+    ),
+    Stage(
+        "claim_diagnostics",
+        "Measurements that only the claims A12 and A16 to A19 need.",
+        "grainmodes.stages.claim_diagnostics:claim_diagnostics_block",
+        "claim_diagnostics",
+        arguments={"rattlers": "protocol.rattlers", "step": "protocol.step_strain"},
+        needs_friction=True,
+    ),
+    Stage(
+        "shear",
+        "Quasistatic shear to protocol.shear.strain, with its events (paper B).",
+        "grainmodes.stages.shear:shear_block",
+        "shear",
+        arguments={"choices": "protocol.shear", "coarse_run": "observables.coarse_run"},
+        options={"coarse_run": "The shear once more, its events not bracketed."},
+        work="usual steps",
+        resumable=True,
+    ),
+    Stage(
+        "complex_pairs",
+        "Complex pairs of eigenvalues along the shear, from birth to death (paper C).",
+        "grainmodes.stages.complex_pairs:complex_pairs_block",
+        "complex_pairs",
+        arguments={"shear": "protocol.shear", "choices": "protocol.complex_pairs"},
+        work="steps",
+        needs_friction=True,
+    ),
+    Stage(
+        "release",
+        "Dynamics from the unstable state of every sample, with and without damping (paper C).",
+        "grainmodes.stages.release:release_block",
+        "release",
+        arguments={"choices": "protocol.release"},
+        reads="complex_pairs",
+        work="runs",
+        needs_friction=True,
+        resumable=True,
+    ),
+    Stage(
+        "law_comparison",
+        "Complex pairs under every tangential law, to protocol.shear.strain (paper C).",
+        "grainmodes.stages.law_comparison:law_comparison_block",
+        "law_comparison",
+        arguments={"choices": "protocol.shear"},
+        work="usual steps",
+        needs_friction=True,
+    ),
+    Stage(
+        "fields",
+        "Displacement fields and single eigenvectors of the sample of seed 0.",
+        "grainmodes.stages.fields:fields_block",
+        "fields",
+        arguments={"rattlers": "protocol.rattlers", "step": "protocol.step_strain"},
+        single_sample=True,
+    ),
+    Stage(
+        "event_detail",
+        "The first event of the sample of seed 0, bracketed ever closer (paper B).",
+        "grainmodes.stages.event_detail:event_detail_block",
+        "event_detail",
+        arguments={"choices": "protocol.shear"},
+        single_sample=True,
+    ),
+)
+
+STAGES: dict[str, Stage] = {stage.name: stage for stage in ENTRIES}
+"""Name → entry, in the order in which a sample passes them."""
+
+
+def responses() -> list[Stage]:
+    """The stages that a grid can request, each computed from packings that exist."""
+    return [stage for stage in STAGES.values() if stage.observable]
+
+
+def gathered() -> list[str]:
+    """Attributes `stage` of the blocks that a point gathers, in the order in which names win."""
+    kept = (stage for stage in STAGES.values() if stage.name != "compress")
+    return [stage.output for stage in kept if not stage.single_sample]
+
+
+def requested(observables: Observables, kt: float) -> list[Stage]:
+    """The stages of a point with these observables and this k_T/k_N."""
+    return [stage for stage in responses() if stage.is_requested(observables, kt)]
+
+
+def observable_keys(stages: Iterable[Stage]) -> dict[str, dict[str, object]]:
+    """Keys of `grids.observables` → their rules in the schema of a scene."""
+    rules: dict[str, dict[str, object]] = {}
+    for stage in stages:
+        values = {"enum": list(stage.kinds)} if stage.kinds else {"type": "boolean"}
+        rules[stage.observable] = {"description": stage.sentence, "default": stage.default} | values
+        for option, meaning in stage.options.items():
+            rules[option] = {"description": meaning, "type": "boolean", "default": False}
+    return rules
