@@ -14,7 +14,7 @@ def check(ensemble, claims: tuple[Claim, ...] = CLAIMS) -> list[Verdict]:
 
     Args:
         ensemble: dataset of `grainmodes.ensemble.open_ensemble`; claims whose observables or
-            points it lacks are "not asked".
+            points it lacks are "not tested".
         claims: all, or those of a paper, such as `paper_a.CLAIMS`.
     """
     return [claim(ensemble) for claim in claims]

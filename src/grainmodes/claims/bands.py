@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from grainmodes.claims.claim import NotAsked
+from grainmodes.claims.claim import NotTested
 from grainmodes.claims.samples import Samples
 from grainmodes.statistics import averages
 from grainmodes.statistics.estimates import Estimate, mean
@@ -23,21 +23,21 @@ if TYPE_CHECKING:
 SEPARABLE = "separable"
 """Name of the variable that marks samples with two bands."""
 
-SEPARATE = 1e-6
+MAX_GAP_KAPPA = 1e-6
 """k_T/k_N up to which the bands of a spectrum that was only counted are told apart by the gap."""
 
-BETWEEN = 3.0
+GAP_FREQUENCY = 3.0
 """omega / omega_R in the gap: the rotational band of Hertzian grains ends below 1.5."""
 
-UP_TO = {
+MAX_KAPPA = {
     "psi_rotational": np.inf,
     "bin_psi_rotational": np.inf,
     "eigenvalue": 0.0,
-    "bin_count": SEPARATE,
+    "bin_count": MAX_GAP_KAPPA,
 }
 """Variable → k_T/k_N up to which it separates the bands."""
 
-SHARES = np.linspace(0.1, 0.9, 9)
+QUANTILES = np.linspace(0.1, 0.9, 9)
 """Shares of a band at which two bands are compared: its ends hang on single modes."""
 
 
@@ -62,15 +62,15 @@ def separable(ensemble: xr.Dataset) -> xr.Dataset:
     """The ensemble with a variable `SEPARABLE`, 1 for samples whose two bands can be told apart.
 
     Raises:
-        NotAsked: no sample is.
+        NotTested: no sample is.
     """
     found = [
         _known(ensemble[name]) & (ensemble["kt"] <= most)
-        for name, most in UP_TO.items()
+        for name, most in MAX_KAPPA.items()
         if name in ensemble
     ]
     if not any((known & (ensemble["kt"] > 0.0)).any() for known in found):
-        raise NotAsked("psi_rotational (observables.spectrum: modes, or bands)")
+        raise NotTested("psi_rotational (observables.spectrum: modes, or bands)")
     known = sum(found) > 0
     return ensemble.assign({SEPARABLE: known.where(known)})
 
@@ -94,14 +94,14 @@ def modes(samples: Samples, phi: float, kappa: float) -> Modes:
     if spectrum == "eigenvalue":
         fractions = np.zeros_like(values) if fractions is None else fractions
         return Modes(averages.frequencies(values).frequency, fractions)
-    edges = samples.of("bin_edge", phi, kappa)
-    split = (edges[:, :-1] < BETWEEN * np.sqrt(kappa)).astype(float)
+    edges = samples.values("bin_edge", phi, kappa)
+    split = (edges[:, :-1] < GAP_FREQUENCY * np.sqrt(kappa)).astype(float)
     return _from_bins(edges, values, split if fractions is None else fractions)
 
 
 def spectrum_at(samples: Samples, name: str, phi: float, kappa: float) -> np.ndarray | None:
     """A variable at one point, None where it has no value there."""
-    values = samples.of(name, phi, kappa) if name in samples.ensemble else np.array(np.nan)
+    values = samples.values(name, phi, kappa) if name in samples.ensemble else np.array(np.nan)
     return values if np.isfinite(values).any() else None
 
 
@@ -151,7 +151,7 @@ def median_log(band: np.ndarray) -> np.ndarray:
     return per_sample(lambda row: np.log10(np.median(row)), band)
 
 
-def log_shares(band: np.ndarray, shares: np.ndarray = SHARES) -> np.ndarray:
+def log_quantiles(band: np.ndarray, shares: np.ndarray = QUANTILES) -> np.ndarray:
     """log(omega) below which the given shares of a band lie, (S, len(shares))."""
     return per_sample(lambda row: np.log(np.quantile(row, shares)), band)
 

@@ -29,9 +29,9 @@ if TYPE_CHECKING:
 HOLDS = "holds"
 CONTRADICTED = "contradicted"
 NOT_RESOLVED = "not resolved at this size"
-NOT_ASKED = "not asked"
+NOT_TESTED = "not tested"
 
-SENTENCE = {
+SUMMARY_VERBS = {
     HOLDS: "hold, the nearest to the limit first",
     NOT_RESOLVED: "are not resolved",
     CONTRADICTED: "are contradicted",
@@ -39,17 +39,17 @@ SENTENCE = {
 """What an explanation says of the parts that decided; the verdict of a claim is its part's that
 stands last here."""
 
-INSIDE = 2.0
+ERRORS_TO_HOLD = 2.0
 """Standard errors by which a part must lie inside its interval to hold."""
 
-OUTSIDE = 3.0
+ERRORS_TO_CONTRADICT = 3.0
 """Standard errors by which a part must lie outside its interval to contradict."""
 
-MOST_NAMED = 4
+MAX_NAMED_PARTS = 4
 """Parts of one verdict that an explanation names one by one."""
 
 
-class NotAsked(Exception):
+class NotTested(Exception):
     """The ensemble lacks what a claim needs; the message names it."""
 
 
@@ -62,7 +62,7 @@ class Part(NamedTuple):
     high: float = np.inf
 
     @property
-    def inside(self) -> float:
+    def margin(self) -> float:
         """Distance from the nearer end of the interval; negative outside."""
         return min(self.estimate.value - self.low, self.high - self.estimate.value)
 
@@ -71,9 +71,9 @@ class Part(NamedTuple):
         """`HOLDS`, `CONTRADICTED` or `NOT_RESOLVED`."""
         if not np.isfinite(self.estimate).all():
             return NOT_RESOLVED
-        if self.inside >= INSIDE * self.estimate.error:
+        if self.margin >= ERRORS_TO_HOLD * self.estimate.error:
             return HOLDS
-        outside = -self.inside > OUTSIDE * self.estimate.error
+        outside = -self.margin > ERRORS_TO_CONTRADICT * self.estimate.error
         return CONTRADICTED if outside else NOT_RESOLVED
 
 
@@ -84,18 +84,18 @@ class Outcome(NamedTuple):
     note: str = ""
 
 
-def every(kinds: dict[str, list[Part]]) -> list[Part]:
+def all_parts(kinds: dict[str, list[Part]]) -> list[Part]:
     """The parts of a claim that says several things; there must be some of each.
 
     Args:
         kinds: what the ensemble needs for some parts → these parts.
 
     Raises:
-        NotAsked: there are no parts of some kind.
+        NotTested: there are no parts of some kind.
     """
     absent = [name for name, parts in kinds.items() if not parts]
     if absent:
-        raise NotAsked(" and ".join(absent))
+        raise NotTested(" and ".join(absent))
     return [part for parts in kinds.values() for part in parts]
 
 
@@ -153,18 +153,18 @@ def _judged(function: Callable, ensemble: xr.Dataset) -> tuple[Part, str, str]:
     try:
         parts, note = function(ensemble)
         if not parts:
-            raise NotAsked("points with at least two jammed samples in the range of the claim")
-    except NotAsked as lacking:
+            raise NotTested("points with at least two jammed samples in the range of the claim")
+    except NotTested as lacking:
         nothing = Part("", Estimate(np.nan, np.nan))
-        return nothing, NOT_ASKED, f"The ensemble lacks {lacking}."
-    severity = list(SENTENCE)
-    worst = max(parts, key=lambda part: (severity.index(part.verdict), -part.inside))
+        return nothing, NOT_TESTED, f"The ensemble lacks {lacking}."
+    severity = list(SUMMARY_VERBS)
+    worst = max(parts, key=lambda part: (severity.index(part.verdict), -part.margin))
     return worst, worst.verdict, f"{_summary(parts, worst)} {note}".strip()
 
 
 def _summary(parts: list[Part], worst: Part) -> str:
     """How many parts share the verdict, and the worst of them by name, the worst first."""
-    same = sorted((p for p in parts if p.verdict == worst.verdict), key=lambda part: part.inside)
-    named = "; ".join(f"{part.where}: {part.estimate}" for part in same[:MOST_NAMED])
-    rest = "; ..." if len(same) > MOST_NAMED else ""
-    return f"{len(same)} of {len(parts)} {SENTENCE[worst.verdict]}: {named}{rest}."
+    same = sorted((p for p in parts if p.verdict == worst.verdict), key=lambda part: part.margin)
+    named = "; ".join(f"{part.where}: {part.estimate}" for part in same[:MAX_NAMED_PARTS])
+    rest = "; ..." if len(same) > MAX_NAMED_PARTS else ""
+    return f"{len(same)} of {len(parts)} {SUMMARY_VERBS[worst.verdict]}: {named}{rest}."

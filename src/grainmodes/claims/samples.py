@@ -11,21 +11,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from grainmodes.claims.claim import NotAsked
+from grainmodes.claims.claim import NotTested
 
 if TYPE_CHECKING:
     import xarray as xr
 
-FEWEST = 2
+MIN_SAMPLES = 2
 """Samples without which a point has no error, and is left out."""
 
-POINT = ("phi", "kt", "seed")
+SAMPLE_DIMENSIONS = ("phi", "kt", "seed")
 """Dimensions of a number per sample, at one N."""
 
-TINY = 1e-300
+ABOVE_ZERO = 1e-300
 """Lower end of "every k_T > 0"."""
 
-ROUNDING = 1.000001
+RANGE_TOLERANCE = 1.000001
 """Factor by which a k_T of the grid may miss the end of a range."""
 
 
@@ -36,7 +36,7 @@ class Samples:
     ensemble: xr.Dataset
     n: int
 
-    def of(self, name: str, phi: float, kappa: float) -> np.ndarray:
+    def values(self, name: str, phi: float, kappa: float) -> np.ndarray:
         """A variable at one point: (S,), or (S, ...) with its further dimensions."""
         place = {"phi": self._place("phi", phi), "kt": self._place("kt", kappa)}
         rows = self._rows(name).isel(place).transpose("seed", ...)
@@ -47,11 +47,13 @@ class Samples:
     ) -> list[tuple[float, float]]:
         """(phi, kappa), ascending, with samples of a variable and k_T/k_N in [low, high]."""
         rows = self._rows(name)
-        known = rows.notnull().any([axis for axis in rows.dims if axis not in POINT])
-        enough = (known & self._used()).sum("seed").transpose("phi", "kt").to_numpy() >= FEWEST
+        known = rows.notnull().any([axis for axis in rows.dims if axis not in SAMPLE_DIMENSIONS])
+        enough = (known & self._used()).sum("seed").transpose("phi", "kt").to_numpy() >= MIN_SAMPLES
         phi, kappa = (self.ensemble[axis].to_numpy().tolist() for axis in ("phi", "kt"))
         found = [(phi[i], kappa[j]) for i, j in zip(*np.nonzero(enough), strict=True)]
-        return [point for point in found if low / ROUNDING <= point[1] <= high * ROUNDING]
+        return [
+            point for point in found if low / RANGE_TOLERANCE <= point[1] <= high * RANGE_TOLERANCE
+        ]
 
     def phis(self, name: str, kappa: float | None = None) -> list[float]:
         """Area fractions at which a variable has samples, at one k_T or any; ascending."""
@@ -79,37 +81,37 @@ class Samples:
         return self.ensemble[axis].to_numpy().tolist().index(value)
 
 
-def richest(ensemble: xr.Dataset, *names: str) -> Samples:
+def best_sampled(ensemble: xr.Dataset, *names: str) -> Samples:
     """The samples of the N with most points that have all the variables, the largest of several.
 
     Raises:
-        NotAsked: the ensemble lacks one of the variables, or samples of them.
+        NotTested: the ensemble lacks one of the variables, or samples of them.
     """
 
     def shared(samples: Samples) -> tuple[int, int]:
         points = set.intersection(*(set(samples.points(name)) for name in names))
         return len(points), samples.n
 
-    return max(sizes(ensemble, *names), key=shared)
+    return max(samples_by_size(ensemble, *names), key=shared)
 
 
-def sizes(ensemble: xr.Dataset, *names: str) -> list[Samples]:
+def samples_by_size(ensemble: xr.Dataset, *names: str) -> list[Samples]:
     """The samples of every N at which all the variables have some, N ascending.
 
     Raises:
-        NotAsked: as `richest`.
+        NotTested: as `best_sampled`.
     """
     absent = [name for name in names if name not in ensemble]
     if absent:
-        raise NotAsked(", ".join(absent))
+        raise NotTested(", ".join(absent))
     found = [Samples(ensemble, n) for n in ensemble["n"].to_numpy().tolist()]
     found = [samples for samples in found if all(samples.points(name) for name in names)]
     if not found:
-        raise NotAsked(f"jammed samples with {', '.join(names)}")
+        raise NotTested(f"jammed samples with {', '.join(names)}")
     return found
 
 
-def at(phi: float | None = None, kappa: float | None = None) -> str:
+def label(phi: float | None = None, kappa: float | None = None) -> str:
     """The name of a point in an explanation."""
     words = {"φ": phi, "κ": kappa}
     return ", ".join(f"{name} = {value:g}" for name, value in words.items() if value is not None)

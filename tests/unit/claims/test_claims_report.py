@@ -26,7 +26,7 @@ def test_reports_hold_every_claim(tmp_path):
     table = [line.replace("\\|", "") for line in page.splitlines() if line.startswith("|")]
     assert {line.count("|") for line in table} == {6}
     assert "18 holds" in report.as_text(found)
-    assert f"{len(found) - 18} not asked" in report.as_text(found)
+    assert f"{len(found) - 18} not tested" in report.as_text(found)
 
 
 def test_the_command_prints_writes_and_refuses(tmp_path, capsys):

@@ -6,7 +6,7 @@ import pytest
 import claim_fixtures
 from claim_mutants import MUTANTS, SECOND_MUTANTS
 from grainmodes.claims import check
-from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED
+from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_TESTED
 from grainmodes.claims.paper_a import CLAIMS
 
 NAMES = [f"A{number}" for number in range(1, 20)]
@@ -55,10 +55,10 @@ NEEDED = {
 
 
 @pytest.mark.parametrize("variable", sorted(set(NEEDED.values())))
-def test_what_the_ensemble_lacks_is_not_asked_and_named(variable):
+def test_what_the_ensemble_lacks_is_not_tested_and_named(variable):
     found = verdicts(claim_fixtures.ensemble().drop_vars(variable))
     for name in (name for name in NAMES if NEEDED[name] == variable):
-        assert found[name].verdict == NOT_ASKED
+        assert found[name].verdict == NOT_TESTED
         assert variable in found[name].explanation
     others = {n: v.verdict for n, v in found.items() if variable not in v.explanation}
     assert set(others.values()) == {HOLDS}
@@ -76,7 +76,7 @@ def test_what_the_ensemble_lacks_is_not_asked_and_named(variable):
 def test_points_that_the_grid_lacks_are_named(grid, names, lack):
     found = verdicts(claim_fixtures.ensemble().sel(grid))
     for name in names:
-        assert found[name].verdict == NOT_ASKED
+        assert found[name].verdict == NOT_TESTED
         assert lack in found[name].explanation
 
 

@@ -6,7 +6,7 @@ import pytest
 import claim_fixtures
 import claim_fixtures_pairs
 from grainmodes.claims import CLAIMS, check, paper_c
-from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED
+from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_TESTED
 
 NAMES = ("C1", "C2", "C3")
 
@@ -67,9 +67,9 @@ def test_the_product_is_taken_to_the_point_itself():
     assert verdicts(ensemble)["C3"].verdict == HOLDS
 
 
-def test_what_the_ensemble_lacks_is_not_asked_and_named():
+def test_what_the_ensemble_lacks_is_not_tested_and_named():
     found = verdicts(claim_fixtures.ensemble())
-    assert {found[name].verdict for name in NAMES} == {NOT_ASKED}
+    assert {found[name].verdict for name in NAMES} == {NOT_TESTED}
     assert "pair_count" in found["C1"].explanation
     assert "exceptional_point_kind" in found["C2"].explanation
 

@@ -7,7 +7,7 @@ import claim_fixtures
 import claim_fixtures_release
 from claim_mutants_release import MUTANTS
 from grainmodes.claims import CLAIMS, check, paper_c
-from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED, NOT_RESOLVED
+from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_RESOLVED, NOT_TESTED
 
 NAMES = ["C4", "C5", "C6", "C7"]
 NEEDED = {
@@ -45,19 +45,19 @@ def test_a_late_end_of_the_growth_contradicts_it():
 
 
 @pytest.mark.parametrize("name", NEEDED)
-def test_what_the_ensemble_lacks_is_not_asked_and_named(name):
+def test_what_the_ensemble_lacks_is_not_tested_and_named(name):
     verdict = verdicts(claim_fixtures_release.ensemble().drop_vars(NEEDED[name]))[name]
-    assert verdict.verdict == NOT_ASKED
+    assert verdict.verdict == NOT_TESTED
     assert NEEDED[name] in verdict.explanation
 
 
 def test_without_releases_nothing_is_asked():
-    assert {v.verdict for v in verdicts(claim_fixtures.ensemble()).values()} == {NOT_ASKED}
+    assert {v.verdict for v in verdicts(claim_fixtures.ensemble()).values()} == {NOT_TESTED}
 
 
 def test_one_sample_decides_nothing():
     one = claim_fixtures_release.ensemble().isel(seed=[0])
-    assert {v.verdict for v in verdicts(one).values()} <= {NOT_ASKED, NOT_RESOLVED}
+    assert {v.verdict for v in verdicts(one).values()} <= {NOT_TESTED, NOT_RESOLVED}
 
 
 def test_samples_without_a_second_instability_are_told():
@@ -68,7 +68,7 @@ def test_samples_without_a_second_instability_are_told():
     assert "3 of 6 runs" in verdict.explanation
     ensemble["release_second_time"][...] = np.nan
     verdict = verdicts(ensemble)["C6"]
-    assert verdict.verdict == NOT_ASKED
+    assert verdict.verdict == NOT_TESTED
     assert "second instability" in verdict.explanation
 
 

@@ -9,7 +9,7 @@ import claim_fixtures
 import claim_fixtures_shear
 from claim_mutants_shear import MUTANTS, SECOND_MUTANTS
 from grainmodes.claims import CLAIMS, check, paper_b
-from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED, NOT_RESOLVED
+from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_RESOLVED, NOT_TESTED
 
 NAMES = [f"B{number}" for number in range(1, 11)]
 NEEDED = {
@@ -34,7 +34,7 @@ def test_both_papers_stand_in_one_table():
     found = verdicts(claim_fixtures_shear.ensemble(), CLAIMS)
     of_c = [name for name in found if name.startswith("C")]
     assert list(found) == [*(f"A{number}" for number in range(1, 20)), *NAMES, *of_c]
-    assert {name for name, v in found.items() if v.verdict == NOT_ASKED} == set(of_c)
+    assert {name for name, v in found.items() if v.verdict == NOT_TESTED} == set(of_c)
     assert {v.verdict for name, v in found.items() if name not in of_c} == {HOLDS}
 
 
@@ -43,7 +43,7 @@ def test_one_changed_number_contradicts_its_claim_alone(name, mutate):
     ensemble = claim_fixtures_shear.ensemble()
     mutate(ensemble)
     found = verdicts(ensemble, CLAIMS)
-    fallen = {n: v.verdict for n, v in found.items() if v.verdict not in (HOLDS, NOT_ASKED)}
+    fallen = {n: v.verdict for n, v in found.items() if v.verdict not in (HOLDS, NOT_TESTED)}
     assert fallen == {name: CONTRADICTED}
 
 
@@ -55,9 +55,9 @@ def test_a_simulation_that_differs_contradicts_the_rigidity_before_strain():
 
 
 @pytest.mark.parametrize("name", NEEDED)
-def test_what_the_ensemble_lacks_is_not_asked_and_named(name):
+def test_what_the_ensemble_lacks_is_not_tested_and_named(name):
     verdict = verdicts(claim_fixtures_shear.ensemble().drop_vars(NEEDED[name]))[name]
-    assert verdict.verdict == NOT_ASKED
+    assert verdict.verdict == NOT_TESTED
     assert NEEDED[name] in verdict.explanation
 
 
@@ -65,7 +65,7 @@ def test_hertzian_grains_are_not_those_of_paper_b():
     ensemble = claim_fixtures_shear.ensemble()
     ensemble.attrs["config"] = json.dumps({})
     found = verdicts(ensemble).values()
-    assert {verdict.verdict for verdict in found} == {NOT_ASKED}
+    assert {verdict.verdict for verdict in found} == {NOT_TESTED}
     assert sum("harmonic grains" in verdict.explanation for verdict in found) == 10
 
 
@@ -73,18 +73,18 @@ def test_without_shear_only_the_rigidity_before_strain_is_asked():
     ensemble = claim_fixtures.ensemble()
     ensemble.attrs["config"] = json.dumps({"contact_law": {"normal": "harmonic"}})
     found = verdicts(ensemble)
-    assert {name for name, v in found.items() if v.verdict != NOT_ASKED} == {"B10"}
+    assert {name for name, v in found.items() if v.verdict != NOT_TESTED} == {"B10"}
 
 
 def test_one_sample_and_no_event_decide_nothing():
     one = claim_fixtures_shear.ensemble().isel(seed=[0])
-    assert {v.verdict for v in verdicts(one).values()} <= {NOT_ASKED, NOT_RESOLVED}
+    assert {v.verdict for v in verdicts(one).values()} <= {NOT_TESTED, NOT_RESOLVED}
     calm = claim_fixtures_shear.ensemble()
     for name in list(calm):
         if name.startswith("event_"):
             calm[name] = calm[name] * np.nan
     found = verdicts(calm)
-    assert {found[name].verdict for name in ("B3", "B4", "B6", "B7", "B9")} == {NOT_ASKED}
+    assert {found[name].verdict for name in ("B3", "B4", "B6", "B7", "B9")} == {NOT_TESTED}
     assert found["B8"].verdict in (HOLDS, CONTRADICTED)
 
 

@@ -8,7 +8,7 @@ import pytest
 
 import claim_fixtures_laws
 from grainmodes.claims import CLAIMS, check
-from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_ASKED
+from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_TESTED
 from grainmodes.claims.paper_c import laws
 
 OWN = (laws.smoothed_is_unstable, laws.sharp_is_stable)
@@ -58,7 +58,7 @@ def test_one_changed_number_contradicts_its_claim_alone(name, mutate):
     ensemble = claim_fixtures_laws.ensemble()
     mutate(ensemble)
     found = verdicts(ensemble, CLAIMS)
-    fallen = {n: v.verdict for n, v in found.items() if v.verdict not in (HOLDS, NOT_ASKED)}
+    fallen = {n: v.verdict for n, v in found.items() if v.verdict not in (HOLDS, NOT_TESTED)}
     assert fallen == {name: CONTRADICTED}
 
 
@@ -75,10 +75,10 @@ def test_one_state_that_grows_is_told_before_it_decides():
 def test_hertzian_grains_and_other_observables_are_not_asked():
     ensemble = claim_fixtures_laws.ensemble()
     without = ensemble.drop_vars("comparison_pairs_slipping_sharp_coulomb")
-    assert verdicts(without)["C9"].verdict == NOT_ASKED
+    assert verdicts(without)["C9"].verdict == NOT_TESTED
     assert verdicts(without)["C8"].verdict == HOLDS
     ensemble.attrs["config"] = json.dumps({})
-    assert {v.verdict for v in verdicts(ensemble).values()} == {NOT_ASKED}
+    assert {v.verdict for v in verdicts(ensemble).values()} == {NOT_TESTED}
 
 
 def test_a_sharp_law_without_slip_is_judged_by_its_springs_alone():

@@ -12,21 +12,27 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.claims.bands import (
+    QUANTILES,
     SEPARABLE,
-    SHARES,
     Modes,
-    log_shares,
+    log_quantiles,
     median_log,
     modes,
     separable,
 )
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
-from grainmodes.claims.paper_a.words import WEAK
-from grainmodes.claims.samples import TINY, Samples, at, richest, sizes
+from grainmodes.claims.claim import NotTested, Outcome, Part, claim
+from grainmodes.claims.paper_a.ranges import WEAK_KAPPA
+from grainmodes.claims.samples import (
+    ABOVE_ZERO,
+    Samples,
+    best_sampled,
+    label,
+    samples_by_size,
+)
 from grainmodes.statistics import averages
 from grainmodes.statistics.estimates import Estimate, mean
 
-LOCALISED = 2.0
+MAX_LOCALISED_GRAINS = 2.0
 """N p below which a mode sits on one grain."""
 
 
@@ -40,14 +46,14 @@ def localised_rattlers(ensemble) -> Outcome:
     Criterion: the share is above one half.
     """
     names = ("eigenvalue_rattlers", "participation_ratio_rattlers", "mode_count_rattlers")
-    samples = richest(ensemble, *names, "mode_count")
+    samples = best_sampled(ensemble, *names, "mode_count")
     parts, zero, added = [], 0.0, 0.0
-    for kappa in samples.kappas(names[0], low=WEAK, high=1e-4):
+    for kappa in samples.kappas(names[0], low=WEAK_KAPPA, high=1e-4):
         near, vanishing, of_rattlers = np.nansum(
             [_rattler_modes(samples, phi, kappa) for phi in samples.phis(names[0], kappa)], axis=0
         )
         share = np.divide(near, of_rattlers, np.full_like(near, np.nan), where=of_rattlers > 0)
-        parts.append(Part(f"share at {at(kappa=kappa)}", mean(share), 0.5))
+        parts.append(Part(f"share at {label(kappa=kappa)}", mean(share), 0.5))
         zero, added = zero + vanishing.sum(), added + of_rattlers.sum()
     note = f"Of {added:.0f} modes of rattlers {zero:.0f} are zero modes, whose p is not defined."
     return Outcome(parts, note)
@@ -56,14 +62,14 @@ def localised_rattlers(ensemble) -> Outcome:
 def _rattler_modes(samples: Samples, phi: float, kappa: float) -> np.ndarray:
     """Of each sample, (3, S): localised modes near ω_R / 10, zero modes, modes of rattlers."""
     eigenvalue, participation, count = (
-        samples.of(f"{name}_rattlers", phi, kappa)
+        samples.values(f"{name}_rattlers", phi, kappa)
         for name in ("eigenvalue", "participation_ratio", "mode_count")
     )
     found = averages.frequencies(eigenvalue)
     decades = np.abs(np.log10(found.frequency / np.sqrt(kappa)) + 1.0)
-    near = ((decades < 0.5) & (samples.n * participation < LOCALISED)).sum(axis=1)
+    near = ((decades < 0.5) & (samples.n * participation < MAX_LOCALISED_GRAINS)).sum(axis=1)
     zero = np.maximum(found.zero - averages.TRANSLATIONS, 0)
-    return np.array([near, zero, count - samples.of("mode_count", phi, kappa)])
+    return np.array([near, zero, count - samples.values("mode_count", phi, kappa)])
 
 
 @claim("A14", unit="1")
@@ -76,23 +82,23 @@ def independent_of_size(ensemble) -> Outcome:
 
     Criterion: each difference is below 5 %.
     """
-    of_n = sizes(separable(ensemble), SEPARABLE)
-    common = set.intersection(*(set(s.points(SEPARABLE, TINY)) for s in (of_n[0], of_n[-1])))
+    of_n = samples_by_size(separable(ensemble), SEPARABLE)
+    common = set.intersection(*(set(s.points(SEPARABLE, ABOVE_ZERO)) for s in (of_n[0], of_n[-1])))
     if len(of_n) < 2 or not common:
-        raise NotAsked("spectra of two N at one φ and k_T")
-    point = max(common, key=lambda point: (point[0], -abs(np.log(point[1] / WEAK))))
+        raise NotTested("spectra of two N at one φ and k_T")
+    point = max(common, key=lambda point: (point[0], -abs(np.log(point[1] / WEAK_KAPPA))))
     small, large = (modes(samples, *point) for samples in (of_n[0], of_n[-1]))
     parts = [
-        Part(f"{band} ω at share {share:.1f}, {at(*point)}", difference, -0.05, 0.05)
+        Part(f"{band} ω at share {share:.1f}, {label(*point)}", difference, -0.05, 0.05)
         for band in ("rotational", "translational")
-        for share, difference in zip(SHARES, _differences(small, large, band), strict=True)
+        for share, difference in zip(QUANTILES, _differences(small, large, band), strict=True)
     ]
     return Outcome(parts, f"Compared are N = {of_n[0].n} and N = {of_n[-1].n}.")
 
 
 def _differences(small: Modes, large: Modes, band: str) -> list[Estimate]:
-    """log omega of the large minus that of the small system at `SHARES`; no seed is shared."""
-    pairs = zip(*(log_shares(getattr(of, band)).T for of in (small, large)), strict=True)
+    """log omega of the large minus that of the small system at `QUANTILES`; no seed is shared."""
+    pairs = zip(*(log_quantiles(getattr(of, band)).T for of in (small, large)), strict=True)
     estimates = [(mean(a), mean(b)) for a, b in pairs]
     return [Estimate(b.value - a.value, np.hypot(a.error, b.error)) for a, b in estimates]
 
@@ -107,15 +113,15 @@ def towards_jamming(ensemble) -> Outcome:
 
     Criterion: both are above 0.
     """
-    samples = richest(separable(ensemble), SEPARABLE)
+    samples = best_sampled(separable(ensemble), SEPARABLE)
     kappa = min(_at_most_phis(samples), default=0.0)
     phis = samples.phis(SEPARABLE, kappa)
     if len(phis) < 2 or kappa == 0.0:
-        raise NotAsked("spectra at two area fractions and one k_T > 0, with jammed samples")
+        raise NotTested("spectra at two area fractions and one k_T > 0, with jammed samples")
     low, high = (modes(samples, phi, kappa) for phi in (phis[0], phis[-1]))
     down = mean(median_log(high.rotational) - median_log(low.rotational))
     wider = mean(_width(low.translational) - _width(high.translational))
-    where = f"φ = {phis[0]:g} against {phis[-1]:g}, {at(kappa=kappa)}"
+    where = f"φ = {phis[0]:g} against {phis[-1]:g}, {label(kappa=kappa)}"
     return Outcome(
         [Part(f"band, {where}", down, 0.0), Part(f"plateau, {where}", wider, 0.0)],
         f"The rotational band moves by {down}, the plateau widens by {wider} decades.",
@@ -124,12 +130,12 @@ def towards_jamming(ensemble) -> Outcome:
 
 def _at_most_phis(samples: Samples) -> list[float]:
     """The values of k_T > 0 with spectra at most area fractions."""
-    kappas = samples.kappas(SEPARABLE, low=TINY)
+    kappas = samples.kappas(SEPARABLE, low=ABOVE_ZERO)
     numbers = [len(samples.phis(SEPARABLE, kappa)) for kappa in kappas]
     return [kappa for kappa, n in zip(kappas, numbers, strict=True) if n == max(numbers)]
 
 
 def _width(band: np.ndarray) -> np.ndarray:
     """log10 of omega at share 0.9 over omega at share 0.1 of each sample, (S,)."""
-    ends = log_shares(band, np.array([0.1, 0.9]))
+    ends = log_quantiles(band, np.array([0.1, 0.9]))
     return (ends[:, 1] - ends[:, 0]) / np.log(10.0)

@@ -12,16 +12,16 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.claims.bands import spectrum_at
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
-from grainmodes.claims.samples import Samples, at, richest
+from grainmodes.claims.claim import NotTested, Outcome, Part, claim
+from grainmodes.claims.samples import Samples, best_sampled, label
 from grainmodes.statistics import averages
 from grainmodes.statistics.binning import occupation
 from grainmodes.statistics.estimates import Estimate, jackknife, mean
 
-SAME_DENSITY = 0.05
+DENSITY_TOLERANCE = 0.05
 """Area between two densities of states, over the area below one, that a figure does not show."""
 
-STRONG = 0.1
+MIN_FRICTIONAL_KAPPA = 0.1
 """k_T/k_N from which states compressed with friction are judged."""
 
 ORDERS = {"position": 2.0, "velocity": 1.0}
@@ -40,37 +40,38 @@ def hessian_density(ensemble) -> Outcome:
     if "bin_count_hessian" in ensemble:
         return _densities(ensemble)
     if "hessian_difference" not in ensemble:
-        raise NotAsked("bin_count_hessian and hessian_difference")
-    samples = richest(ensemble, "hessian_difference")
+        raise NotTested("bin_count_hessian and hessian_difference")
+    samples = best_sampled(ensemble, "hessian_difference")
     parts = [
-        Part(at(*p), mean(samples.of("hessian_difference", *p)), high=SAME_DENSITY)
+        Part(label(*p), mean(samples.values("hessian_difference", *p)), high=DENSITY_TOLERANCE)
         for p in samples.points("hessian_difference")
     ]
     return Outcome(parts, "Compared are the matrices, with tangent stiffnesses in H.")
 
 
 def _densities(ensemble) -> Outcome:
-    samples = richest(ensemble, "bin_count_hessian", "bin_edge")
+    samples = best_sampled(ensemble, "bin_count_hessian", "bin_edge")
     points = samples.points("bin_count_hessian")
     parts = [
-        Part(at(*p), _area(samples, "bin_count_hessian", p), high=SAME_DENSITY) for p in points
+        Part(label(*p), _area(samples, "bin_count_hessian", p), high=DENSITY_TOLERANCE)
+        for p in points
     ]
     if "bin_count_hessian_printed" not in ensemble:
         return Outcome(parts)
     printed = {p: _area(samples, "bin_count_hessian_printed", p) for p in points}
-    listed = ", ".join(f"{area} at {at(*point)}" for point, area in printed.items())
+    listed = ", ".join(f"{area} at {label(*point)}" for point, area in printed.items())
     return Outcome(parts, f"With k_N and k_T as printed in (H2) the area is {listed}.")
 
 
 def _area(samples: Samples, name: str, point: tuple) -> Estimate:
-    edges = samples.of("bin_edge", *point)
+    edges = samples.values("bin_edge", *point)
     bins = int(np.isfinite(edges).any(axis=0).sum()) - 1
 
     def area(counts: np.ndarray, hessian: np.ndarray) -> float:
         return np.abs(counts.mean(axis=0) - hessian.mean(axis=0)).sum() / counts.mean(axis=0).sum()
 
     counts = _counts(samples, point, edges[:, : bins + 1])
-    return jackknife(area, counts[:, :bins], samples.of(name, *point)[:, :bins])
+    return jackknife(area, counts[:, :bins], samples.values(name, *point)[:, :bins])
 
 
 def _counts(samples: Samples, point: tuple, edges: np.ndarray) -> np.ndarray:
@@ -79,7 +80,7 @@ def _counts(samples: Samples, point: tuple, edges: np.ndarray) -> np.ndarray:
     if eigenvalue is None:
         counted = spectrum_at(samples, "bin_count", *point)
         if counted is None:
-            raise NotAsked("bin_count or eigenvalue")
+            raise NotTested("bin_count or eigenvalue")
         return counted
     frequency = averages.frequencies(eigenvalue).frequency
     rows = [occupation(row[None], of)[0] for row, of in zip(frequency, edges, strict=True)]
@@ -95,11 +96,11 @@ def verlet_orders(ensemble) -> Outcome:
     Criterion: 1.8 ... 2.2 in q, 0.8 ... 1.2 in q̇.
     """
     names = {kind: f"verlet_order_{kind}" for kind in ORDERS}
-    samples = richest(ensemble, *names.values())
+    samples = best_sampled(ensemble, *names.values())
     parts = [
         Part(
-            f"{kind} at {at(*p)}",
-            mean(samples.of(name, *p)),
+            f"{kind} at {label(*p)}",
+            mean(samples.values(name, *p)),
             ORDERS[kind] - 0.2,
             ORDERS[kind] + 0.2,
         )
@@ -118,12 +119,12 @@ def complex_pairs_with_friction(ensemble) -> Outcome:
 
     Criterion: above one half.
     """
-    samples = richest(ensemble, "complex_pairs_frictional", "jammed_frictional")
-    points = samples.points("complex_pairs_frictional", STRONG)
+    samples = best_sampled(ensemble, "complex_pairs_frictional", "jammed_frictional")
+    points = samples.points("complex_pairs_frictional", MIN_FRICTIONAL_KAPPA)
     if not points:
-        raise NotAsked("states compressed with a k_T/k_N ≥ 0.1")
+        raise NotTested("states compressed with a k_T/k_N ≥ 0.1")
     pairs, jammed = (
-        np.array([samples.of(name, *point) for point in points])
+        np.array([samples.values(name, *point) for point in points])
         for name in ("complex_pairs_frictional", "jammed_frictional")
     )
     having = np.where(jammed == 1, pairs > 0, np.nan)

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import Outcome, Part, claim, every
-from grainmodes.claims.samples import TINY, Samples, at, richest
+from grainmodes.claims.claim import Outcome, Part, all_parts, claim
+from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled, label
 from grainmodes.statistics.estimates import Estimate, crossing, mean, relative_difference
 
-CROSSING = (1.6, 2.5)
+CROSSING_RANGE = (1.6, 2.5)
 """Range of k_T/k_N that is 2 on A's grid, whose neighbours of 2 are 1 and 5."""
 
 
@@ -32,18 +32,18 @@ def nonaffine_sign_change(ensemble) -> Outcome:
     Criterion: the crossing lies within 1.6 ... 2.5 at every φ, and |G_NA| is larger at the
     highest φ.
     """
-    samples = richest(ensemble, "g_nonaffine", "g_nonaffine_loaded")
+    samples = best_sampled(ensemble, "g_nonaffine", "g_nonaffine_loaded")
     phis = samples.phis("g_nonaffine")
     zeros = {phi: _zero(samples, phi) for phi in phis if _ends_around_two(samples, phi)}
     parts = {
         "k_T/k_N on both sides of 2": [
-            Part(f"crossing at {at(phi)}", zero, *CROSSING) for phi, zero in zeros.items()
+            Part(f"crossing at {label(phi)}", zero, *CROSSING_RANGE) for phi, zero in zeros.items()
         ],
         "two area fractions": [
             _growth(samples, kappa, phis) for kappa in _ends(samples, phis) if len(phis) > 1
         ],
     }
-    return Outcome(every(parts), f"{_crossings(zeros)} {_loading(samples)}")
+    return Outcome(all_parts(parts), f"{_crossings(zeros)} {_loading(samples)}")
 
 
 def _ends(samples: Samples, phis: list[float]) -> list[float]:
@@ -53,34 +53,34 @@ def _ends(samples: Samples, phis: list[float]) -> list[float]:
 
 
 def _ends_around_two(samples: Samples, phi: float) -> bool:
-    kappas = samples.kappas("g_nonaffine", phi, TINY)
-    return bool(kappas) and kappas[0] < CROSSING[0] and kappas[-1] > CROSSING[1]
+    kappas = samples.kappas("g_nonaffine", phi, ABOVE_ZERO)
+    return bool(kappas) and kappas[0] < CROSSING_RANGE[0] and kappas[-1] > CROSSING_RANGE[1]
 
 
 def _zero(samples: Samples, phi: float) -> Estimate:
-    kappas = samples.kappas("g_nonaffine", phi, TINY)
-    rows = np.array([samples.of("g_nonaffine", phi, kappa) for kappa in kappas])
+    kappas = samples.kappas("g_nonaffine", phi, ABOVE_ZERO)
+    rows = np.array([samples.values("g_nonaffine", phi, kappa) for kappa in kappas])
     return crossing(np.array(kappas), rows.T)
 
 
 def _growth(samples: Samples, kappa: float, phis: list[float]) -> Part:
-    low, high = (np.abs(samples.of("g_nonaffine", phi, kappa)) for phi in (phis[0], phis[-1]))
-    return Part(f"growth at {at(kappa=kappa)}", relative_difference(high, low), 0.0)
+    low, high = (np.abs(samples.values("g_nonaffine", phi, kappa)) for phi in (phis[0], phis[-1]))
+    return Part(f"growth at {label(kappa=kappa)}", relative_difference(high, low), 0.0)
 
 
 def _crossings(zeros: dict[float, Estimate]) -> str:
-    listed = ", ".join(f"{zero} at {at(phi)}" for phi, zero in zeros.items())
+    listed = ", ".join(f"{zero} at {label(phi)}" for phi, zero in zeros.items())
     return f"The unloaded G_NA crosses 0 at κ = {listed}."
 
 
 def _loading(samples: Samples) -> str:
     """What becomes of the sign once the step loads the tangential springs."""
-    points = samples.points("g_nonaffine_loaded", TINY)
-    loaded = np.array([samples.of("g_nonaffine_loaded", *point) for point in points])
-    (phi, kappa), last = points[-1], samples.of("g_nonaffine", *points[-1])
+    points = samples.points("g_nonaffine_loaded", ABOVE_ZERO)
+    loaded = np.array([samples.values("g_nonaffine_loaded", *point) for point in points])
+    (phi, kappa), last = points[-1], samples.values("g_nonaffine", *points[-1])
     return (
         "The sign belongs to the step, which does not load the tangential springs: with springs "
         "loaded g_NA = -aᵀJ⁺a/L² ≤ 0, positive in "
         f"{int((loaded > 0).sum())} of {int(np.isfinite(loaded).sum())} samples, and G_NA at "
-        f"{at(phi, kappa)} is {mean(loaded[-1])} loaded, {mean(last)} unloaded."
+        f"{label(phi, kappa)} is {mean(loaded[-1])} loaded, {mean(last)} unloaded."
     )

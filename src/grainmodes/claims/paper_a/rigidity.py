@@ -13,15 +13,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
-from grainmodes.claims.paper_a.words import LARGE, SAME, SMALL
-from grainmodes.claims.samples import TINY, Samples, at, richest
+from grainmodes.claims.claim import NotTested, Outcome, Part, claim
+from grainmodes.claims.paper_a.ranges import LARGE_KAPPA, SMALL_KAPPA, TOLERANCE
+from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled, label
 from grainmodes.statistics.estimates import Estimate, mean, relative_difference
 
-LIMIT = 0.001
+LIMIT_TOLERANCE = 0.001
 """Relative difference to the frictionless G that counts as its limit."""
 
-FEWEST_PHI = 3
+MIN_AREA_FRACTIONS = 3
 """Area fractions without which an exponent has no meaning."""
 
 
@@ -34,15 +34,15 @@ def not_proportional_to_distance(ensemble) -> Outcome:
 
     Criterion: |β - 1| > 0.1 at every k_T/k_N ≥ 1.
     """
-    samples = richest(ensemble, "g", "phi_jamming")
-    enough = [k for k in samples.kappas("g") if len(samples.phis("g", k)) >= FEWEST_PHI]
+    samples = best_sampled(ensemble, "g", "phi_jamming")
+    enough = [k for k in samples.kappas("g") if len(samples.phis("g", k)) >= MIN_AREA_FRACTIONS]
     if not enough:
-        raise NotAsked(f"{FEWEST_PHI} area fractions with jammed samples")
+        raise NotTested(f"{MIN_AREA_FRACTIONS} area fractions with jammed samples")
     exponents = {kappa: _exponent(samples, kappa) for kappa in enough}
     parts = [
-        Part(at(kappa=kappa), Estimate(abs(beta.value - 1.0), beta.error), 0.1)
+        Part(label(kappa=kappa), Estimate(abs(beta.value - 1.0), beta.error), 0.1)
         for kappa, beta in exponents.items()
-        if kappa >= LARGE
+        if kappa >= LARGE_KAPPA
     ]
     listed = ", ".join(f"{beta} at κ = {kappa:g}" for kappa, beta in exponents.items())
     return Outcome(parts, f"β is {listed}.")
@@ -51,8 +51,8 @@ def not_proportional_to_distance(ensemble) -> Outcome:
 def _exponent(samples: Samples, kappa: float) -> Estimate:
     """Mean over seeds of d log G / d log(φ - φ_c), from at least three φ of a seed."""
     phis = samples.phis("g", kappa)
-    distance = np.array([phi - samples.of("phi_jamming", phi, kappa) for phi in phis])
-    moduli = np.array([samples.of("g", phi, kappa) for phi in phis])
+    distance = np.array([phi - samples.values("phi_jamming", phi, kappa) for phi in phis])
+    moduli = np.array([samples.values("g", phi, kappa) for phi in phis])
     with np.errstate(invalid="ignore", divide="ignore"):
         x, y = np.log(distance), np.log(moduli)
     return mean(np.array([_slope(*column) for column in zip(x.T, y.T, strict=True)]))
@@ -60,7 +60,7 @@ def _exponent(samples: Samples, kappa: float) -> Estimate:
 
 def _slope(x: np.ndarray, y: np.ndarray) -> float:
     known = np.isfinite(x) & np.isfinite(y)
-    return np.polyfit(x[known], y[known], 1)[0] if known.sum() >= FEWEST_PHI else np.nan
+    return np.polyfit(x[known], y[known], 1)[0] if known.sum() >= MIN_AREA_FRACTIONS else np.nan
 
 
 @claim("A3", unit="1")
@@ -71,17 +71,17 @@ def flat_at_small_stiffness(ensemble) -> Outcome:
 
     Criterion: |difference| < 1 %.
     """
-    samples = richest(ensemble, "g")
+    samples = best_sampled(ensemble, "g")
     parts, errors = [], {}
     for phi in samples.phis("g"):
-        lowest, *others = samples.kappas("g", phi, TINY, SMALL) or [None]
-        reference = samples.of("g", phi, lowest) if others else None
+        lowest, *others = samples.kappas("g", phi, ABOVE_ZERO, SMALL_KAPPA) or [None]
+        reference = samples.values("g", phi, lowest) if others else None
         for kappa in others:
-            difference = relative_difference(samples.of("g", phi, kappa), reference)
-            parts.append(Part(at(phi, kappa), difference, -SAME, SAME))
+            difference = relative_difference(samples.values("g", phi, kappa), reference)
+            parts.append(Part(label(phi, kappa), difference, -TOLERANCE, TOLERANCE))
         if others:
             errors[phi] = mean(reference).error / np.nanmean(reference)
-    listed = ", ".join(f"{error:.2g} at {at(phi)}" for phi, error in errors.items())
+    listed = ", ".join(f"{error:.2g} at {label(phi)}" for phi, error in errors.items())
     return Outcome(parts, f"For comparison, the relative standard error of G itself: {listed}.")
 
 
@@ -93,23 +93,32 @@ def frictionless_limit(ensemble) -> Outcome:
 
     Criterion: |difference| < 0.1 % at a k_T/k_N ≤ 1e-6.
     """
-    samples = richest(ensemble, "g")
-    with_limit = [phi for phi in samples.phis("g", 0.0) if samples.kappas("g", phi, TINY, 1e-6)]
+    samples = best_sampled(ensemble, "g")
+    with_limit = [
+        phi for phi in samples.phis("g", 0.0) if samples.kappas("g", phi, ABOVE_ZERO, 1e-6)
+    ]
     if not with_limit:
-        raise NotAsked("k_T = 0 and a k_T/k_N ≤ 1e-6")
+        raise NotTested("k_T = 0 and a k_T/k_N ≤ 1e-6")
     parts = [
-        Part(at(phi, kappa), _to_frictionless(samples, phi, kappa), -LIMIT, LIMIT)
+        Part(
+            label(phi, kappa),
+            _to_frictionless(samples, phi, kappa),
+            -LIMIT_TOLERANCE,
+            LIMIT_TOLERANCE,
+        )
         for phi in with_limit
-        for kappa in samples.kappas("g", phi, TINY, 1e-6)[:1]
+        for kappa in samples.kappas("g", phi, ABOVE_ZERO, 1e-6)[:1]
     ]
     phi = with_limit[-1]
-    approach = {k: _to_frictionless(samples, phi, k) for k in samples.kappas("g", phi, TINY, 1.0)}
+    approach = {
+        k: _to_frictionless(samples, phi, k) for k in samples.kappas("g", phi, ABOVE_ZERO, 1.0)
+    }
     listed = ", ".join(f"{value} at κ = {kappa:g}" for kappa, value in approach.items())
-    return Outcome(parts, f"The difference at {at(phi)} is {listed}.")
+    return Outcome(parts, f"The difference at {label(phi)} is {listed}.")
 
 
 def _to_frictionless(samples: Samples, phi: float, kappa: float) -> Estimate:
-    return relative_difference(samples.of("g", phi, kappa), samples.of("g", phi, 0.0))
+    return relative_difference(samples.values("g", phi, kappa), samples.values("g", phi, 0.0))
 
 
 @claim("A5", unit="1")
@@ -121,26 +130,26 @@ def no_factorisation(ensemble) -> Outcome:
 
     Criterion: |difference| > 0.05 at every k_T/k_N ≥ 1.
     """
-    samples = richest(ensemble, "g")
+    samples = best_sampled(ensemble, "g")
     phis = samples.phis("g", 0.0)
     if len(phis) < 2:
-        raise NotAsked("k_T = 0 at two area fractions with jammed samples")
+        raise NotTested("k_T = 0 at two area fractions with jammed samples")
     parts, ends = [], (phis[0], phis[-1])
-    for kappa in samples.common_kappas("g", ends, LARGE):
+    for kappa in samples.common_kappas("g", ends, LARGE_KAPPA):
         low, high = (_log_gain(samples, phi, kappa) for phi in ends)
         change = mean(low - high)
-        parts.append(Part(at(kappa=kappa), Estimate(abs(change.value), change.error), 0.05))
+        parts.append(Part(label(kappa=kappa), Estimate(abs(change.value), change.error), 0.05))
     return Outcome(parts, _gains(samples, ends))
 
 
 def _log_gain(samples: Samples, phi: float, kappa: float) -> np.ndarray:
     with np.errstate(invalid="ignore"):
-        return np.log(samples.of("g", phi, kappa) / samples.of("g", phi, 0.0))
+        return np.log(samples.values("g", phi, kappa) / samples.values("g", phi, 0.0))
 
 
 def _gains(samples: Samples, phis: tuple[float, float]) -> str:
     """G(κ)/G(0) at the largest κ, at two area fractions."""
     kappa = samples.kappas("g", phis[-1])[-1]
     gains = {phi: _to_frictionless(samples, phi, kappa) for phi in phis}
-    listed = (f"{Estimate(g.value + 1, g.error)} at {at(phi)}" for phi, g in gains.items())
+    listed = (f"{Estimate(g.value + 1, g.error)} at {label(phi)}" for phi, g in gains.items())
     return f"G(κ = {kappa:g}) / G(0) is {' and '.join(listed)}."

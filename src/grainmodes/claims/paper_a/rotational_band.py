@@ -14,19 +14,19 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.claims.bands import Modes, per_sample
-from grainmodes.claims.claim import Outcome, Part, claim, every
-from grainmodes.claims.paper_a.spectra import REGION, spectra_of, within
-from grainmodes.claims.samples import TINY, at
+from grainmodes.claims.claim import Outcome, Part, all_parts, claim
+from grainmodes.claims.paper_a.spectra import REGION_BOUNDARY, friction_spectra, within
+from grainmodes.claims.samples import ABOVE_ZERO, label
 from grainmodes.statistics import averages
 from grainmodes.statistics.estimates import Estimate, jackknife, mean, relative_difference
 
-SCALING = 0.01
+MAX_SCALING_KAPPA = 0.01
 """Largest k_T/k_N for which A finds omega_R D to collapse."""
 
-WINDOW = np.linspace(0.1, 1.0, 10)
+WINDOW_EDGES = np.linspace(0.1, 1.0, 10)
 """Edges in omega / omega_R of the bins in which curves are compared (A, Fig. 10)."""
 
-SMOOTHING = 0.1
+SMOOTHING_WIDTH = 0.1
 """Width in omega / omega_R of the Gaussian that smooths D before its peak is sought."""
 
 
@@ -39,20 +39,25 @@ def peak_and_collapse(ensemble) -> Outcome:
 
     Criterion: the peak lies at ω/ω_R = 0.5 ... 2, and the area between two curves is below 0.1.
     """
-    _, phi, spectra = spectra_of(ensemble)
-    scaled = {k: of.frequency / np.sqrt(k) for k, of in within(spectra, TINY, SCALING).items()}
+    _, phi, spectra = friction_spectra(ensemble)
+    scaled = {
+        k: of.frequency / np.sqrt(k)
+        for k, of in within(spectra, ABOVE_ZERO, MAX_SCALING_KAPPA).items()
+    }
     peaks = {kappa: mean(_peak(x)) for kappa, x in scaled.items()}
     counts = {kappa: _counts(x) for kappa, x in scaled.items()}
     parts = {
         "k_T/k_N ≤ 0.01": [
-            Part(f"peak at {at(phi, k)}", peak, 0.5, 2.0) for k, peak in peaks.items()
+            Part(f"peak at {label(phi, k)}", peak, 0.5, 2.0) for k, peak in peaks.items()
         ],
         "two k_T/k_N ≤ 0.01": [
-            Part(f"area at {at(phi, k)}", _area_between(counts[k], counts[min(counts)]), high=0.1)
+            Part(
+                f"area at {label(phi, k)}", _area_between(counts[k], counts[min(counts)]), high=0.1
+            )
             for k in sorted(counts)[1:]
         ],
     }
-    return Outcome(every(parts), _peaks_and_chi_squared(peaks, counts))
+    return Outcome(all_parts(parts), _peaks_and_chi_squared(peaks, counts))
 
 
 def _peak(scaled: np.ndarray) -> np.ndarray:
@@ -60,14 +65,16 @@ def _peak(scaled: np.ndarray) -> np.ndarray:
     grid = np.linspace(0.1, 2.0, 191)
 
     def highest(row: np.ndarray) -> float:
-        return grid[np.exp(-(((grid[:, None] - row) / SMOOTHING) ** 2) / 2).sum(axis=1).argmax()]
+        return grid[
+            np.exp(-(((grid[:, None] - row) / SMOOTHING_WIDTH) ** 2) / 2).sum(axis=1).argmax()
+        ]
 
-    return per_sample(highest, np.where(scaled < 2 * REGION, scaled, np.nan))
+    return per_sample(highest, np.where(scaled < 2 * REGION_BOUNDARY, scaled, np.nan))
 
 
 def _counts(scaled: np.ndarray) -> np.ndarray:
-    """Modes of each sample in the bins of `WINDOW`, (S, B)."""
-    return per_sample(lambda row: np.histogram(row, WINDOW)[0].astype(float), scaled)
+    """Modes of each sample in the bins of `WINDOW_EDGES`, (S, B)."""
+    return per_sample(lambda row: np.histogram(row, WINDOW_EDGES)[0].astype(float), scaled)
 
 
 def _area_between(counts: np.ndarray, reference: np.ndarray) -> Estimate:
@@ -103,11 +110,11 @@ def area_of_rotational_band(ensemble) -> Outcome:
 
     Criterion: |relative difference| < 5 %.
     """
-    samples, phi, spectra = spectra_of(ensemble)
+    samples, phi, spectra = friction_spectra(ensemble)
     areas = {kappa: _rotational_count(of) for kappa, of in spectra.items()}
-    scaled = sorted(within(areas, TINY, SCALING))
+    scaled = sorted(within(areas, ABOVE_ZERO, MAX_SCALING_KAPPA))
     parts = [
-        Part(at(phi, kappa), relative_difference(areas[kappa], areas[scaled[0]]), -0.05, 0.05)
+        Part(label(phi, kappa), relative_difference(areas[kappa], areas[scaled[0]]), -0.05, 0.05)
         for kappa in scaled[1:]
     ]
     shares = ", ".join(f"{mean(area / (3 * samples.n))} at κ = {k:g}" for k, area in areas.items())

@@ -6,17 +6,17 @@ A's is φ = 0.90, its largest; here it is the largest φ of the ensemble.
 from __future__ import annotations
 
 from grainmodes.claims.bands import SEPARABLE, Modes, modes, separable
-from grainmodes.claims.samples import TINY, Samples, richest
+from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled
 
-REGION = 2.0
+REGION_BOUNDARY = 2.0
 """omega / omega_R between Regions I and II."""
 
 
-def spectra_of(ensemble) -> tuple[Samples, float, dict[float, Modes]]:
+def friction_spectra(ensemble) -> tuple[Samples, float, dict[float, Modes]]:
     """The N with most spectra, its largest φ, and the modes of every k_T > 0 there."""
-    samples = richest(separable(ensemble), SEPARABLE)
+    samples = best_sampled(separable(ensemble), SEPARABLE)
     phi = samples.phis(SEPARABLE)[-1]
-    kappas = samples.kappas(SEPARABLE, phi, TINY)
+    kappas = samples.kappas(SEPARABLE, phi, ABOVE_ZERO)
     return samples, phi, {kappa: modes(samples, phi, kappa) for kappa in kappas}
 
 

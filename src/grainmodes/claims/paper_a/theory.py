@@ -15,8 +15,8 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.claims.claim import Outcome, Part, claim
-from grainmodes.claims.paper_a.words import SAME, SMALL
-from grainmodes.claims.samples import TINY, Samples, at, richest
+from grainmodes.claims.paper_a.ranges import SMALL_KAPPA, TOLERANCE
+from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled, label
 from grainmodes.statistics.estimates import Estimate, relative_difference
 
 
@@ -28,23 +28,28 @@ def theory_is_simulation(ensemble) -> Outcome:
 
     Criterion: |G_simulated - G| < 1 % of G.
     """
-    samples = richest(ensemble, "g", "g_simulated")
+    samples = best_sampled(ensemble, "g", "g_simulated")
     parts = [
-        Part(at(*point), _relative(samples, "g_simulated", "g", *point), -SAME, SAME)
+        Part(
+            label(*point),
+            _relative(samples, "g_simulated", "g", *point),
+            -TOLERANCE,
+            TOLERANCE,
+        )
         for point in samples.points("g_simulated")
     ]
     return Outcome(parts, _contact_changes(samples))
 
 
 def _relative(samples: Samples, name: str, reference: str, phi: float, kappa: float) -> Estimate:
-    of = (samples.of(variable, phi, kappa) for variable in (name, reference))
+    of = (samples.values(variable, phi, kappa) for variable in (name, reference))
     return relative_difference(*of)
 
 
 def _contact_changes(samples: Samples) -> str:
     if "contact_changes" not in samples.ensemble:
         return ""
-    counts = [samples.of("contact_changes", *p) for p in samples.points("contact_changes")]
+    counts = [samples.values("contact_changes", *p) for p in samples.points("contact_changes")]
     changed = sum(int((count > 0).sum()) for count in counts)
     total = sum(int(np.isfinite(count).sum()) for count in counts)
     return f"The step strain opened or closed contacts in {changed} of {total} samples."
@@ -59,14 +64,21 @@ def independent_of_strain(ensemble) -> Outcome:
 
     Criterion: |difference| < 1 %.
     """
-    samples = richest(ensemble, "g_forward_by_strain", "diagnostic_strain")
+    samples = best_sampled(ensemble, "g_forward_by_strain", "diagnostic_strain")
     parts = []
     for point in samples.points("g_forward_by_strain"):
-        moduli = samples.of("g_forward_by_strain", *point).T
-        steps = np.nanmean(samples.of("diagnostic_strain", *point), axis=0)
+        moduli = samples.values("g_forward_by_strain", *point).T
+        steps = np.nanmean(samples.values("diagnostic_strain", *point), axis=0)
         for step, of in zip(steps[1:], moduli[1:], strict=True):
             difference = relative_difference(of, moduli[0])
-            parts.append(Part(f"Δγ = {step:g}, {at(*point)}", difference, -SAME, SAME))
+            parts.append(
+                Part(
+                    f"Δγ = {step:g}, {label(*point)}",
+                    difference,
+                    -TOLERANCE,
+                    TOLERANCE,
+                )
+            )
     return Outcome(parts)
 
 
@@ -79,12 +91,17 @@ def translational_modes_suffice(ensemble) -> Outcome:
 
     Criterion: |difference| < 1 %.
     """
-    samples = richest(ensemble, "g_translational", "g")
+    samples = best_sampled(ensemble, "g_translational", "g")
     parts = [
-        Part(at(*point), _relative(samples, "g_translational", "g", *point), -SAME, SAME)
-        for point in samples.points("g_translational", TINY, SMALL)
+        Part(
+            label(*point),
+            _relative(samples, "g_translational", "g", *point),
+            -TOLERANCE,
+            TOLERANCE,
+        )
+        for point in samples.points("g_translational", ABOVE_ZERO, SMALL_KAPPA)
     ]
-    above = samples.points("g_translational", 2.0 * SMALL)
+    above = samples.points("g_translational", 2.0 * SMALL_KAPPA)
     differences = {p: _relative(samples, "g_translational", "g", *p) for p in above}
-    listed = ", ".join(f"{value} at {at(*point)}" for point, value in differences.items())
+    listed = ", ".join(f"{value} at {label(*point)}" for point, value in differences.items())
     return Outcome(parts, f"Above, the difference is {listed}." if listed else "")

@@ -24,16 +24,16 @@ from grainmodes.claims.bands import (
     per_sample,
     separable,
 )
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim, every
-from grainmodes.claims.paper_a.spectra import REGION, spectra_of, within
-from grainmodes.claims.paper_a.words import WEAK
-from grainmodes.claims.samples import TINY, at, richest
+from grainmodes.claims.claim import NotTested, Outcome, Part, all_parts, claim
+from grainmodes.claims.paper_a.ranges import WEAK_KAPPA
+from grainmodes.claims.paper_a.spectra import REGION_BOUNDARY, friction_spectra, within
+from grainmodes.claims.samples import ABOVE_ZERO, best_sampled, label
 from grainmodes.statistics.estimates import Estimate, mean
 
-PURE = 0.9
+MIN_PURITY = 0.9
 """psi above which a region counts as purely rotational or translational."""
 
-SEPARATE, OVERLAP, MERGED = (1e-10, 1e-8), (1e-6, 1e-2), (1.0, np.inf)
+SEPARATE_RANGE, OVERLAP_RANGE, MERGED_RANGE = (1e-10, 1e-8), (1e-6, 1e-2), (1.0, np.inf)
 """k_T/k_N of A's three kinds of spectrum (Sec. IV B)."""
 
 
@@ -45,20 +45,20 @@ def pure_regions(ensemble) -> Outcome:
 
     Criterion: each mean is above 0.9.
     """
-    _, phi, spectra = spectra_of(ensemble)
+    _, phi, spectra = friction_spectra(ensemble)
     parts = [
-        Part(f"ψ^R in I at {at(phi, kappa)}", _purity(of, kappa, rotational=True), PURE)
-        for kappa, of in within(spectra, TINY, 1e-4).items()
+        Part(f"ψ^R in I at {label(phi, kappa)}", _purity(of, kappa, rotational=True), MIN_PURITY)
+        for kappa, of in within(spectra, ABOVE_ZERO, 1e-4).items()
     ]
     parts += [
-        Part(f"ψ^T in II at {at(phi, kappa)}", _purity(of, kappa, rotational=False), PURE)
-        for kappa, of in within(spectra, TINY, 0.5).items()
+        Part(f"ψ^T in II at {label(phi, kappa)}", _purity(of, kappa, rotational=False), MIN_PURITY)
+        for kappa, of in within(spectra, ABOVE_ZERO, 0.5).items()
     ]
     return Outcome(parts)
 
 
 def _purity(of: Modes, kappa: float, rotational: bool) -> Estimate:
-    region = REGION * np.sqrt(kappa)
+    region = REGION_BOUNDARY * np.sqrt(kappa)
     if rotational:
         return mean_in(of.psi_rotational, of.frequency < region)
     return mean_in(1.0 - of.psi_rotational, of.frequency > region)
@@ -74,21 +74,21 @@ def gap_overlap_merger(ensemble) -> Outcome:
 
     Criterion: gap > 0 up to 1e-8, gap < 0 in 1e-6 ... 1e-2, share > 0.9 from 1 on.
     """
-    samples, phi, spectra = spectra_of(ensemble)
+    samples, phi, spectra = friction_spectra(ensemble)
     gaps = {kappa: _gap(of) for kappa, of in spectra.items()}
     parts = {
         "k_T/k_N in 1e-10 ... 1e-8": [
-            Part(f"gap at {at(phi, k)}", gaps[k], 0.0) for k in within(gaps, *SEPARATE)
+            Part(f"gap at {label(phi, k)}", gaps[k], 0.0) for k in within(gaps, *SEPARATE_RANGE)
         ],
         "k_T/k_N in 1e-6 ... 1e-2": [
-            Part(f"gap at {at(phi, k)}", gaps[k], high=0.0) for k in within(gaps, *OVERLAP)
+            Part(f"gap at {label(phi, k)}", gaps[k], high=0.0) for k in within(gaps, *OVERLAP_RANGE)
         ],
         "k_T/k_N ≥ 1": [
-            Part(f"share at {at(phi, k)}", _share_above(of), PURE)
-            for k, of in within(spectra, *MERGED).items()
+            Part(f"share at {label(phi, k)}", _share_above(of), MIN_PURITY)
+            for k, of in within(spectra, *MERGED_RANGE).items()
         ],
     }
-    return Outcome(every(parts), _gap_and_size(samples.n, within(gaps, *OVERLAP)))
+    return Outcome(all_parts(parts), _gap_and_size(samples.n, within(gaps, *OVERLAP_RANGE)))
 
 
 def _gap(of: Modes) -> Estimate:
@@ -117,14 +117,21 @@ def frictionless_band(ensemble) -> Outcome:
 
     Criterion: the mean shift is below 1 %.
     """
-    samples = richest(separable(ensemble), SEPARABLE)
-    phis = [p for p in samples.phis(SEPARABLE, 0.0) if samples.kappas(SEPARABLE, p, TINY, WEAK)]
+    samples = best_sampled(separable(ensemble), SEPARABLE)
+    phis = [
+        p
+        for p in samples.phis(SEPARABLE, 0.0)
+        if samples.kappas(SEPARABLE, p, ABOVE_ZERO, WEAK_KAPPA)
+    ]
     if not phis:
-        raise NotAsked("spectra at k_T = 0 and at a k_T/k_N ≤ 1e-8")
-    phi, kappa = phis[-1], samples.kappas(SEPARABLE, phis[-1], TINY, WEAK)[-1]
+        raise NotTested("spectra at k_T = 0 and at a k_T/k_N ≤ 1e-8")
+    phi, kappa = (
+        phis[-1],
+        samples.kappas(SEPARABLE, phis[-1], ABOVE_ZERO, WEAK_KAPPA)[-1],
+    )
     with_friction, without = modes(samples, phi, kappa).translational, frictionless(samples, phi)
     counts = [np.isfinite(band).sum(axis=1).mean() for band in (with_friction, without)]
-    shift = Part(at(phi, kappa), mean(per_sample(_shift, with_friction, without)), high=0.01)
+    shift = Part(label(phi, kappa), mean(per_sample(_shift, with_friction, without)), high=0.01)
     note = f"{counts[0]:.1f} translational modes against {counts[1]:.1f} without friction."
     return Outcome([shift], note)
 

@@ -13,27 +13,27 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
-from grainmodes.claims.paper_b.sheared import SAME, harmonic, over_samples, sheared
-from grainmodes.claims.samples import at
+from grainmodes.claims.claim import NotTested, Outcome, Part, claim
+from grainmodes.claims.paper_b.sheared import TOLERANCE, harmonic, over_samples, sheared
+from grainmodes.claims.samples import label
 from grainmodes.ensemble.curves import Approach, Curve
 from grainmodes.statistics.estimates import mean
 
-PRECURSOR = 0.05
+MAX_TREND = 0.05
 """Relative change of λ_min before an event that would be a precursor; a square root gives 1."""
 
-SUDDEN = 10.0
+MIN_JUMP_RATIO = 10.0
 """Times the trend of the states before by which λ_min changes where it jumps."""
 
-MOST = 0.9
+MIN_SHARE = 0.9
 """Share of all events that counts as all: the eigenvalue of another place may be the lowest."""
 
-POLES = ("event_quadrupole", "event_other_multipoles")
+POLE_NAMES = ("event_quadrupole", "event_other_multipoles")
 
-PURE = 0.617
+PURE_QUADRUPOLE = 0.617
 """p_2 of rotations that go as cos 2ϑ: (π/4)²."""
 
-FEWEST_STATES = 5
+MIN_STATES = 5
 """States without which a singular part is not told from a regular one."""
 
 
@@ -48,13 +48,13 @@ def jump_without_precursor(ensemble) -> Outcome:
     """
     parts, notes = [], []
     for where, of in sheared(ensemble, "curve_lowest_eigenvalue"):
-        parts.append(Part(f"trend, {where}", over_samples(of, _trend), -PRECURSOR, PRECURSOR))
-        parts.append(Part(f"jumps, {where}", over_samples(of, _share_of_jumps), MOST))
+        parts.append(Part(f"trend, {where}", over_samples(of, _trend), -MAX_TREND, MAX_TREND))
+        parts.append(Part(f"jumps, {where}", over_samples(of, _share_of_jumps), MIN_SHARE))
         falls = np.concatenate([_trends(curve) for curve in of])
         size = over_samples(of, _size_of_jump)
         notes.append(
             f"At {where} λ_min changes by {size} of itself in an event, and before "
-            f"{(falls < -PRECURSOR).sum()} of {len(falls)} events it falls by more than 5 %."
+            f"{(falls < -MAX_TREND).sum()} of {len(falls)} events it falls by more than 5 %."
         )
     return Outcome(_measured(parts, "λ_min on states before events"), " ".join(notes))
 
@@ -62,7 +62,7 @@ def jump_without_precursor(ensemble) -> Outcome:
 def _measured(parts: list[Part], needed: str) -> list[Part]:
     known = [part for part in parts if np.isfinite(part.estimate.value)]
     if not known:
-        raise NotAsked(needed)
+        raise NotTested(needed)
     return known
 
 
@@ -87,7 +87,7 @@ def _share_of_jumps(curve: Curve) -> float:
             curve.strain[last] - curve.strain[first]
         )
         change = curve.lowest_eigenvalue[last + 1] - curve.lowest_eigenvalue[last]
-        sudden.append(abs(change) > SUDDEN * abs(slope) * curve.step[last])
+        sudden.append(abs(change) > MIN_JUMP_RATIO * abs(slope) * curve.step[last])
     return np.mean(sudden) if sudden and np.isfinite(curve.lowest_eigenvalue).all() else np.nan
 
 
@@ -109,14 +109,14 @@ def no_singularity(ensemble) -> Outcome:
     Criterion: within ±1 %.
     """
     parts = [
-        Part(where, over_samples(of, _singular), -SAME, SAME)
+        Part(where, over_samples(of, _singular), -TOLERANCE, TOLERANCE)
         for where, of in sheared(ensemble, "curve_g_xy")
     ]
-    return Outcome(_measured(parts, f"events with {FEWEST_STATES} states before them"))
+    return Outcome(_measured(parts, f"events with {MIN_STATES} states before them"))
 
 
 def _singular(curve: Curve) -> float:
-    terms = [_singular_term(curve, approach) for approach in _seen(curve, FEWEST_STATES)]
+    terms = [_singular_term(curve, approach) for approach in _seen(curve, MIN_STATES)]
     return np.mean(terms) / np.abs(curve.modulus).mean() if terms else np.nan
 
 
@@ -141,10 +141,10 @@ def quadrupole_of_rotations(ensemble) -> Outcome:
     samples = harmonic(ensemble, "event_quadrupole")
     parts, notes = [], []
     for point in samples.points("event_quadrupole"):
-        four, others = (_by_sample(samples.of(name, *point)) for name in POLES)
-        parts.append(Part(at(*point), mean(four), low=0.5 * PURE))
+        four, others = (_by_sample(samples.values(name, *point)) for name in POLE_NAMES)
+        parts.append(Part(label(*point), mean(four), low=0.5 * PURE_QUADRUPOLE))
         excess = mean(four - others)
-        notes.append(f"At {at(*point)} p_2 exceeds the mean of p_1, p_3 and p_4 by {excess}.")
+        notes.append(f"At {label(*point)} p_2 exceeds the mean of p_1, p_3 and p_4 by {excess}.")
     return Outcome(_measured(parts, "events"), " ".join(notes))
 
 
@@ -167,17 +167,17 @@ def contacts_at_events(ensemble) -> Outcome:
     samples = harmonic(ensemble, "curve_strain", *names)
     parts, notes = [], []
     for point in samples.points("curve_strain"):
-        kind, *changes = (samples.of(name, *point) for name in ("event_kind", *names))
+        kind, *changes = (samples.values(name, *point) for name in ("event_kind", *names))
         happened = kind > 0
         changed, lasting = (
             np.where(happened, sum(of) > 0, np.nan) for of in (changes, changes[:2])
         )
-        parts.append(Part(at(*point), mean(_share(changed)), MOST))
+        parts.append(Part(label(*point), mean(_share(changed)), MIN_SHARE))
         opened, closed, again = (int(of[happened].sum()) for of in changes)
         notes.append(
-            f"In {happened.sum()} events at {at(*point)} {opened} contacts opened, {closed} closed "
-            f"and {again} did both; in {mean(1.0 - _share(lasting))} of the events of a "
-            "sample the network is the same before and after."
+            f"In {happened.sum()} events at {label(*point)} {opened} contacts opened, "
+            f"{closed} closed and {again} did both; in {mean(1.0 - _share(lasting))} of the events "
+            "of a sample the network is the same before and after."
         )
     return Outcome(_measured(parts, "events"), " ".join(notes))
 

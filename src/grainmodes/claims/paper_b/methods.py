@@ -9,31 +9,31 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
-from grainmodes.claims.paper_b.sheared import SAME, harmonic
-from grainmodes.claims.samples import Samples, at
+from grainmodes.claims.claim import NotTested, Outcome, Part, claim
+from grainmodes.claims.paper_b.sheared import TOLERANCE, harmonic
+from grainmodes.claims.samples import Samples, label
 from grainmodes.statistics.estimates import mean
 
-EXACT = -12.0
+MAX_LOG_ASYMMETRY = -12.0
 """log10 of max|J - Jᵀ| / max|J| below which it is rounding."""
 
 UNBRACKETED = ("coarse_strain", "coarse_stress")
 
-RANGES = (
-    ("γ ≤ 0.08", 0.0, 0.08, (-np.inf, SAME)),
-    ("γ > 0.08", 0.08, np.inf, (SAME, np.inf)),
+STRAIN_RANGES = (
+    ("γ ≤ 0.08", 0.0, 0.08, (-np.inf, TOLERANCE)),
+    ("γ > 0.08", 0.08, np.inf, (TOLERANCE, np.inf)),
 )
 """Where the two curves are compared, and the interval of their difference."""
 
-ROUNDING = 1e-12
+STRAIN_TOLERANCE = 1e-12
 """Strains that are the same may differ by so much."""
 
-ZERO = 1e-17
+SMALLEST_ASYMMETRY = 1e-17
 """What stands for no difference at all."""
 
-BRACKET = ("min_step", "strain_before", "strain_after")
+BRACKET_NAMES = ("min_step", "strain_before", "strain_after")
 
-CONVERGED = 1.1e-6
+MAX_CONVERGED_STEP = 1.1e-6
 """Δγ_Th from which on γ_c has converged: 1e-6, with room for rounding."""
 
 
@@ -49,20 +49,22 @@ def independent_of_min_step(ensemble) -> Outcome:
     parts = []
     for point in samples.points("coarse_strain"):
         names = ("curve_strain", "curve_stress_xy", "curve_stress_yx")
-        of = [samples.of(name, *point) for name in (*names, *UNBRACKETED)]
-        for where, low, high, interval in RANGES:
+        of = [samples.values(name, *point) for name in (*names, *UNBRACKETED)]
+        for where, low, high, interval in STRAIN_RANGES:
             off = np.array([_apart(*rows, low, high) for rows in zip(*of, strict=True)])
             if np.isfinite(off).any():
-                parts.append(Part(f"{where}, {at(*point)}", mean(off[np.isfinite(off)]), *interval))
+                parts.append(
+                    Part(f"{where}, {label(*point)}", mean(off[np.isfinite(off)]), *interval)
+                )
     return Outcome(parts)
 
 
 def _apart(strain, stress_xy, stress_yx, coarse_strain, coarse_stress, low, high) -> float:
     """Relative difference of two curves on the grid of Δγ_in in (low, high]; NaN without any."""
-    grid = (coarse_strain > low + ROUNDING) & (coarse_strain < high + ROUNDING)
+    grid = (coarse_strain > low + STRAIN_TOLERANCE) & (coarse_strain < high + STRAIN_TOLERANCE)
     if not grid.any():
         return np.nan
-    place = np.searchsorted(strain, coarse_strain[grid] - ROUNDING)
+    place = np.searchsorted(strain, coarse_strain[grid] - STRAIN_TOLERANCE)
     fine = 0.5 * (stress_xy + stress_yx)[np.minimum(place, len(strain) - 1)]
     with np.errstate(invalid="ignore"):
         return float(np.sqrt(np.nanmean((fine - coarse_stress[grid]) ** 2) / np.nanmean(fine**2)))
@@ -79,16 +81,16 @@ def critical_strain_converges(ensemble) -> Outcome:
     samples = harmonic(ensemble, "bracket_min_step")
     parts = []
     for point in samples.points("bracket_strain_after"):
-        width, before, after = (samples.of(f"bracket_{name}", *point) for name in BRACKET)
+        width, before, after = (samples.values(f"bracket_{name}", *point) for name in BRACKET_NAMES)
         critical = 0.5 * (before + after)
         off = np.abs(critical - critical[:, -1:]) / width
         widths = np.nanmax(width, axis=0)
-        for column in np.flatnonzero(widths[:-1] < CONVERGED):
+        for column in np.flatnonzero(widths[:-1] < MAX_CONVERGED_STEP):
             known = off[np.isfinite(off[:, column]), column]
-            where = f"Δγ_Th = {widths[column]:.0e}, {at(*point)}"
+            where = f"Δγ_Th = {widths[column]:.0e}, {label(*point)}"
             parts.append(Part(where, mean(known), high=1.0))
     if not parts:
-        raise NotAsked("events in brackets of 1e-6 and less")
+        raise NotTested("events in brackets of 1e-6 and less")
     return Outcome(parts)
 
 
@@ -104,9 +106,13 @@ def symmetric_jacobian(ensemble) -> Outcome:
     samples = harmonic(ensemble, "event_asymmetry_after")
     parts, notes = [], []
     for point in samples.points("event_asymmetry_after"):
-        by_event = np.log10(np.maximum(samples.of("event_asymmetry_after", *point), ZERO))
+        by_event = np.log10(
+            np.maximum(samples.values("event_asymmetry_after", *point), SMALLEST_ASYMMETRY)
+        )
         seen = np.isfinite(by_event).any(axis=1)
-        parts.append(Part(at(*point), mean(np.nanmean(by_event[seen], axis=1)), high=EXACT))
+        parts.append(
+            Part(label(*point), mean(np.nanmean(by_event[seen], axis=1)), high=MAX_LOG_ASYMMETRY)
+        )
         notes.append(_pairs(samples, point))
     return Outcome(parts, " ".join(notes))
 
@@ -119,7 +125,9 @@ def _pairs(samples: Samples, point: tuple[float, float]) -> str:
         ("last states", "last_complex_pairs"),
     ):
         if name in samples.ensemble:
-            pairs = samples.of(name, *point)
+            pairs = samples.values(name, *point)
             known = np.isfinite(pairs)
             sentences.append(f"{(pairs[known] > 0).sum()} of {known.sum()} {states}")
-    return f"M⁻¹J has complex pairs in {' and '.join(sentences)} at {at(*point)}." * bool(sentences)
+    return f"M⁻¹J has complex pairs in {' and '.join(sentences)} at {label(*point)}." * bool(
+        sentences
+    )

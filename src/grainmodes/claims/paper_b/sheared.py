@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from grainmodes.claims.claim import NotAsked
-from grainmodes.claims.samples import Samples, at, richest
+from grainmodes.claims.claim import NotTested
+from grainmodes.claims.samples import Samples, best_sampled, label
 from grainmodes.ensemble import normal_law
 from grainmodes.ensemble.curves import Curve, curves
 from grainmodes.statistics.estimates import Estimate, mean
 
-SAME = 0.01
+TOLERANCE = 0.01
 """Relative difference of two numbers that a figure of B does not show."""
 
 
@@ -20,11 +20,11 @@ def harmonic(ensemble, *names: str) -> Samples:
     """The samples of the N with most points that have all the variables.
 
     Raises:
-        NotAsked: the ensemble lacks one of the variables, or its grains are not harmonic.
+        NotTested: the ensemble lacks one of the variables, or its grains are not harmonic.
     """
-    samples = richest(ensemble, *names)
+    samples = best_sampled(ensemble, *names)
     if normal_law(ensemble) != "harmonic":
-        raise NotAsked("harmonic grains")
+        raise NotTested("harmonic grains")
     return samples
 
 
@@ -32,13 +32,13 @@ def sheared(ensemble, *names: str) -> Iterator[tuple[str, list[Curve]]]:
     """The name of every point with sheared samples, and their curves.
 
     Raises:
-        NotAsked: as `harmonic`.
+        NotTested: as `harmonic`.
     """
     samples = harmonic(ensemble, "curve_strain", *names)
     for point in samples.points("curve_strain"):
         found = curves(ensemble, samples.n, *point).values()
         if moved := [curve for curve in found if len(curve.step)]:
-            yield at(*point), moved
+            yield label(*point), moved
 
 
 def over_samples(of: list[Curve], number: Callable[[Curve], float]) -> Estimate:

@@ -15,19 +15,19 @@ from itertools import pairwise
 
 import numpy as np
 
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
-from grainmodes.claims.paper_b.sheared import SAME, harmonic, over_samples, sheared
-from grainmodes.claims.samples import at
+from grainmodes.claims.claim import NotTested, Outcome, Part, claim
+from grainmodes.claims.paper_b.sheared import TOLERANCE, harmonic, over_samples, sheared
+from grainmodes.claims.samples import label
 from grainmodes.ensemble.curves import Curve, even_bins
 from grainmodes.statistics.estimates import Estimate, complete, mean, relative_difference
 
-BINS = 10
+N_BINS = 10
 """Parts of the whole strain in which mean rigidities are compared."""
 
-VISIBLE = 0.05
+RIGIDITY_TOLERANCE = 0.05
 """Relative difference of two mean rigidities that stands out of the error bars of B, Fig. 9."""
 
-DECADES = 1.0
+MIN_DECADES = 1.0
 """Range of log10 Δγ without which no order is fitted."""
 
 
@@ -43,8 +43,10 @@ def theory_is_simulation(ensemble) -> Outcome:
     """
     parts, notes = [], []
     for where, of in sheared(ensemble, "curve_g_xy"):
-        parts.append(Part(f"σ, {where}", over_samples(of, _of_stress), high=SAME))
-        parts.append(Part(f"quiet steps, {where}", over_samples(of, _of_quiet_steps), high=SAME))
+        parts.append(Part(f"σ, {where}", over_samples(of, _of_stress), high=TOLERANCE))
+        parts.append(
+            Part(f"quiet steps, {where}", over_samples(of, _of_quiet_steps), high=TOLERANCE)
+        )
         order = over_samples(of, _order)
         if np.isfinite(order.value):
             parts.append(Part(f"order, {where}", order, 1.8, 2.2))
@@ -88,7 +90,7 @@ def _order(curve: Curve) -> float:
         step, missing = curve.step[first:last], np.abs(curve.deviation[first:last])
         used = (step > above) & (missing > 0.0)
         x, y = np.log10(step[used]), np.log10(missing[used])
-        if used.sum() > 2 and np.ptp(x) >= DECADES:
+        if used.sum() > 2 and np.ptp(x) >= MIN_DECADES:
             slopes.append(np.polyfit(x, y, 1)[0])
     return np.mean(slopes) if slopes else np.nan
 
@@ -104,13 +106,18 @@ def mean_rigidity(ensemble) -> Outcome:
     """
     parts, notes = [], []
     for where, of in sheared(ensemble, "curve_g_xy"):
-        edges = even_bins(of, BINS)
+        edges = even_bins(of, N_BINS)
         theory = np.array([curve.mean_slopes(curve.predicted_change, edges) for curve in of])
         simulation = np.array([curve.mean_slopes(curve.stress_change, edges) for curve in of])
         for bin_, (low, high) in enumerate(pairwise(edges)):
             difference = relative_difference(simulation[:, bin_], theory[:, bin_])
             parts.append(
-                Part(f"γ = {low:.3g} ... {high:.3g}, {where}", difference, -VISIBLE, VISIBLE)
+                Part(
+                    f"γ = {low:.3g} ... {high:.3g}, {where}",
+                    difference,
+                    -RIGIDITY_TOLERANCE,
+                    RIGIDITY_TOLERANCE,
+                )
             )
         whole = relative_difference(simulation.mean(axis=1), theory.mean(axis=1))
         first, final = (mean(theory[complete(theory), place]) for place in (0, -1))
@@ -131,10 +138,11 @@ def rigidity_before_strain(ensemble) -> Outcome:
     """
     samples = harmonic(ensemble, "g", "g_simulated")
     parts = [
-        Part(at(*point), _difference(samples, point), -SAME, SAME) for point in _points(samples)
+        Part(label(*point), _difference(samples, point), -TOLERANCE, TOLERANCE)
+        for point in _points(samples)
     ]
     if not parts:
-        raise NotAsked("g and g_simulated at one point")
+        raise NotTested("g and g_simulated at one point")
     return Outcome(parts)
 
 
@@ -144,4 +152,4 @@ def _points(samples) -> list[tuple[float, float]]:
 
 
 def _difference(samples, point: tuple[float, float]) -> Estimate:
-    return relative_difference(*(samples.of(name, *point) for name in ("g_simulated", "g")))
+    return relative_difference(*(samples.values(name, *point) for name in ("g_simulated", "g")))

@@ -13,21 +13,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
-from grainmodes.claims.samples import Samples, at, richest
+from grainmodes.claims.claim import NotTested, Outcome, Part, claim
+from grainmodes.claims.samples import Samples, best_sampled, label
 from grainmodes.ensemble import normal_law
 from grainmodes.statistics.estimates import Estimate, mean
 
-MOST = 0.5
+MIN_SHARE = 0.5
 """Share of the samples that must have a pair somewhere on their way."""
 
-HARDLY = 0.02
+MAX_SHARE = 0.02
 """Share of states that stands for none."""
 
-GROWS = (0.9, 1.1)
+GROWTH_RANGE = (0.9, 1.1)
 """Growth over ω_i of what grows as linear theory says."""
 
-STAYS = 0.1
+MAX_GROWTH = 0.1
 """Growth over ω_i below which it does not."""
 
 
@@ -44,9 +44,9 @@ def smoothed_is_unstable(ensemble) -> Outcome:
     parts, notes = [], []
     for point in points:
         pairs = _of(samples, "pairs_slipping", "smoothed_coulomb", point)
-        parts.append(Part(f"born, {at(*point)}", mean(_born(pairs)), MOST))
-        parts.append(Part(f"growth, {at(*point)}", _growth(samples, point), *GROWS))
-        notes.append(f"{mean(np.nanmean(pairs, axis=1))} pairs a state at {at(*point)}.")
+        parts.append(Part(f"born, {label(*point)}", mean(_born(pairs)), MIN_SHARE))
+        parts.append(Part(f"growth, {label(*point)}", _growth(samples, point), *GROWTH_RANGE))
+        notes.append(f"{mean(np.nanmean(pairs, axis=1))} pairs a state at {label(*point)}.")
     return Outcome(_resolved(parts), " ".join(notes))
 
 
@@ -67,14 +67,17 @@ def sharp_is_stable(ensemble) -> Outcome:
             _of(samples, name, "sharp_coulomb", point)
             for name in ("pairs_sticking", "pairs_slipping")
         )
-        parts.append(Part(f"sticking, {at(*point)}", mean(_share(held)), high=HARDLY))
+        parts.append(Part(f"sticking, {label(*point)}", mean(_share(held)), high=MAX_SHARE))
         ratio = _ratio(samples, "sharp_coulomb", point)
         largest = np.where(np.isfinite(ratio), ratio, -np.inf).max(axis=1)
-        growth = Part(f"growth, {at(*point)}", mean(largest[np.isfinite(largest)]), high=STAYS)
+        growth = Part(
+            f"growth, {label(*point)}", mean(largest[np.isfinite(largest)]), high=MAX_GROWTH
+        )
         parts.append(growth)
         notes.append(
-            f"At {at(*point)} springs that slip make pairs in {mean(_share(slipped))} of the "
-            f"states; of {np.isfinite(ratio).sum()} released ones {(ratio > STAYS).sum()} grow."
+            f"At {label(*point)} springs that slip make pairs in {mean(_share(slipped))} of "
+            f"the states; of {np.isfinite(ratio).sum()} released ones "
+            f"{(ratio > MAX_GROWTH).sum()} grow."
         )
     return Outcome(_resolved(parts), " ".join(notes))
 
@@ -83,19 +86,19 @@ def _harmonic(ensemble, law: str) -> tuple[Samples, list[tuple[float, float]]]:
     """The samples of harmonic grains, and the points at which they were sheared under this law.
 
     Raises:
-        NotAsked: the ensemble lacks the numbers, or its grains are not harmonic.
+        NotTested: the ensemble lacks the numbers, or its grains are not harmonic.
     """
     name = f"comparison_pairs_slipping_{law}"
-    samples = richest(ensemble, name, f"comparison_rate_{law}")
+    samples = best_sampled(ensemble, name, f"comparison_rate_{law}")
     if normal_law(ensemble) != "harmonic":
-        raise NotAsked("harmonic grains")
+        raise NotTested("harmonic grains")
     return samples, samples.points(name)
 
 
 def _of(samples: Samples, number: str, law: str, point: tuple[float, float]) -> np.ndarray:
     """A number of the states of every jammed sample, (S, states); rows without any left out."""
-    of = samples.of(f"comparison_{number}_{law}", *point)
-    return of[np.isfinite(samples.of(f"comparison_rate_{law}", *point)).any(axis=1)]
+    of = samples.values(f"comparison_{number}_{law}", *point)
+    return of[np.isfinite(samples.values(f"comparison_rate_{law}", *point)).any(axis=1)]
 
 
 def _born(pairs: np.ndarray) -> np.ndarray:

@@ -15,18 +15,18 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import pandas as pd
 
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
-from grainmodes.claims.samples import FEWEST, at, sizes
+from grainmodes.claims.claim import NotTested, Outcome, Part, claim
+from grainmodes.claims.samples import MIN_SAMPLES, label, samples_by_size
 from grainmodes.ensemble.exceptional import PairSample, pair_samples
 from grainmodes.statistics.estimates import Estimate, mean
 
-EXPONENT, TOLERANCE = 0.5, 0.01
+EXPONENT, EXPONENT_TOLERANCE = 0.5, 0.01
 """C (21), and how far a measured exponent may lie from it."""
 
-PARALLEL = 0.999
+MIN_PRODUCT = 0.999
 """Scalar product from which two eigenvectors are parallel; C's figures show less."""
 
-SHARE = 0.5
+MIN_SHARE = 0.5
 """Share of the samples in which a pair must have been born."""
 
 
@@ -39,13 +39,13 @@ def born_under_shear(ensemble) -> Outcome:
     Criterion: no pair in the first state, a share above 0.5.
     """
     parts, notes = [], []
-    for of in sizes(ensemble, "pair_count"):
+    for of in samples_by_size(ensemble, "pair_count"):
         for point in of.points("pair_count"):
-            pairs = of.of("pair_count", *point)
-            where = f"N = {of.n}, {at(*point)}"
+            pairs = of.values("pair_count", *point)
+            where = f"N = {of.n}, {label(*point)}"
             born = np.where(np.isfinite(pairs[:, 0]), np.nansum(pairs, axis=1) > 0.0, np.nan)
             parts.append(Part(f"at first, {where}", mean(pairs[:, 0]), -0.5, 0.5))
-            parts.append(Part(f"share, {where}", mean(born), SHARE))
+            parts.append(Part(f"share, {where}", mean(born), MIN_SHARE))
             notes.append(f"At {where} the last state has {mean(_last(pairs))} pairs.")
     return Outcome(parts, " ".join(notes))
 
@@ -65,7 +65,7 @@ def square_root(ensemble) -> Outcome:
 
     Criterion: 0.49 to 0.51.
     """
-    low, high = EXPONENT - TOLERANCE, EXPONENT + TOLERANCE
+    low, high = EXPONENT - EXPONENT_TOLERANCE, EXPONENT + EXPONENT_TOLERANCE
     parts = []
     for where, of in _grouped(ensemble):
         for birth, event in ((1, "births"), (0, "deaths")):
@@ -95,7 +95,7 @@ def parallel_eigenvectors(ensemble) -> Outcome:
     for where, of in _grouped(ensemble):
         found = _over(of, _at_the_point)
         if np.isfinite(found.error):
-            parts.append(Part(where, found, PARALLEL))
+            parts.append(Part(where, found, MIN_PRODUCT))
             far = _over(of, lambda s: float(_real(s).groupby("point")["product"].last().mean()))
             notes.append(f"At the farthest state, {where}, it is {far}.")
     return Outcome(parts, " ".join(notes))
@@ -122,17 +122,17 @@ def _grouped(ensemble) -> Iterator[tuple[str, list[PairSample]]]:
     """The name of every point, and its samples with coalescences, where there are enough.
 
     Raises:
-        NotAsked: the ensemble lacks them.
+        NotTested: the ensemble lacks them.
     """
     if "exceptional_point_kind" not in ensemble:
-        raise NotAsked("exceptional_point_kind, exceptional points of complex pairs")
+        raise NotTested("exceptional_point_kind, exceptional points of complex pairs")
     groups: dict[tuple, list[PairSample]] = {}
     for sample in pair_samples(ensemble):
         place = sample.coordinates
         groups.setdefault((place["n"], place["phi"], place["kt"]), []).append(sample)
     for (n, phi, kt), of in groups.items():
-        if len(of) >= FEWEST:
-            yield f"N = {n}, {at(phi, kt)}", of
+        if len(of) >= MIN_SAMPLES:
+            yield f"N = {n}, {label(phi, kt)}", of
 
 
 def _over(of: list[PairSample], number: Callable[[PairSample], float]) -> Estimate:

@@ -14,23 +14,23 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from grainmodes.claims.claim import NotAsked, Outcome, Part, claim
-from grainmodes.claims.samples import Samples, at, richest
+from grainmodes.claims.claim import NotTested, Outcome, Part, claim
+from grainmodes.claims.samples import Samples, best_sampled, label
 from grainmodes.statistics.estimates import mean
 
-SAME = 0.01
+TOLERANCE = 0.01
 """Relative difference of a fitted rate or frequency to linear theory."""
 
-OPEN = 0.1
+MIN_AXIS_RATIO = 0.1
 """Ratio of the axes of a grain's turn from which it is no line."""
 
-SLIGHT = -8.0
+LOG_CONTACT_CHANGE = -8.0
 """log10 of M, in d², above which contacts may change."""
 
-AROUND = (-8.0, -6.0)
+LOG_CHANGE_RANGE = (-8.0, -6.0)
 """log10 of "M ~ 1e-7"."""
 
-SOON = 2.0
+MAX_DELAY = 2.0
 """Time, in 1/ω_i, between the first change of contacts and the end of the growth."""
 
 
@@ -38,19 +38,19 @@ def released(ensemble, *names: str) -> Iterator[tuple[str, dict[str, np.ndarray]
     """The name of every point with released samples, and their values by name.
 
     Raises:
-        NotAsked: the ensemble lacks one of the variables, or released samples.
+        NotTested: the ensemble lacks one of the variables, or released samples.
     """
     names = ("rate_linear", *names)
     absent = [f"release_{name}" for name in names if f"release_{name}" not in ensemble]
     if absent:
-        raise NotAsked(", ".join(absent))
-    samples = richest(ensemble, "release_rate_linear")
+        raise NotTested(", ".join(absent))
+    samples = best_sampled(ensemble, "release_rate_linear")
     for point in samples.points("release_rate_linear"):
-        yield at(*point), _values(samples, point, names)
+        yield label(*point), _values(samples, point, names)
 
 
 def _values(samples: Samples, point: tuple[float, float], names) -> dict[str, np.ndarray]:
-    return {name: samples.of(f"release_{name}", *point) for name in names}
+    return {name: samples.values(f"release_{name}", *point) for name in names}
 
 
 @claim("C4", unit="1")
@@ -65,8 +65,8 @@ def spirals(ensemble) -> Outcome:
     parts = []
     for where, of in released(ensemble, *(f"spiral_{x}" for x in ("misfit", "overlap", "opening"))):
         parts.append(Part(f"left over, {where}", mean(of["spiral_misfit"]), high=0.05))
-        parts.append(Part(f"overlap, {where}", mean(of["spiral_overlap"]), low=1.0 - SAME))
-        parts.append(Part(f"opening, {where}", mean(of["spiral_opening"]), low=OPEN))
+        parts.append(Part(f"overlap, {where}", mean(of["spiral_overlap"]), low=1.0 - TOLERANCE))
+        parts.append(Part(f"opening, {where}", mean(of["spiral_opening"]), low=MIN_AXIS_RATIO))
     return Outcome(parts)
 
 
@@ -79,19 +79,19 @@ def growth(ensemble) -> Outcome:
 
     Criterion: rates and frequencies within ±1 %; log10 M within -8 ... -6; the time within ±2.
     """
-    fits = [f"{of}_{name}" for of in LAWS for name in ("rate", "frequency")]
-    depths = [f"{of}_depth" for of in LAWS]
+    fits = [f"{of}_{name}" for of in SQUARES for name in ("rate", "frequency")]
+    depths = [f"{of}_depth" for of in SQUARES]
     moments = ("change_square", "change_time", "end_time")
     parts, notes = [], []
     for where, of in released(ensemble, "frequency_linear", *fits, *depths, *moments):
         for name in fits:
             linear = of[f"{name.rpartition('_')[2]}_linear"]
             off = mean(of[name][:, 0] / linear - 1.0)
-            parts.append(Part(f"{name.replace('_', ', ')}, {where}", off, -SAME, SAME))
+            parts.append(Part(f"{name.replace('_', ', ')}, {where}", off, -TOLERANCE, TOLERANCE))
         size = mean(np.log10(of["change_square"][:, 0]))
-        parts.append(Part(f"first change, {where}", size, *AROUND))
+        parts.append(Part(f"first change, {where}", size, *LOG_CHANGE_RANGE))
         later = (of["end_time"] - of["change_time"])[:, 0] * of["rate_linear"]
-        parts.append(Part(f"end after it, {where}", mean(later), -SOON, SOON))
+        parts.append(Part(f"end after it, {where}", mean(later), -MAX_DELAY, MAX_DELAY))
         swing = " and ".join(f"{mean(of[name][:, 0])}" for name in depths)
         notes.append(
             f"At {where} M and A swing by {swing} of their means; e^(2ω_i t) sin²(ω_r t) would "
@@ -100,7 +100,7 @@ def growth(ensemble) -> Outcome:
     return Outcome(parts, " ".join(notes))
 
 
-LAWS = ("displacement", "rotation")
+SQUARES = ("displacement", "rotation")
 """The laws of M and of A."""
 
 
@@ -136,7 +136,7 @@ def second_instability(ensemble) -> Outcome:
             Part(f"contacts, {where}", mean(contacts), high=0.0),
         ]
     if not parts:
-        raise NotAsked("runs that come to a second instability")
+        raise NotTested("runs that come to a second instability")
     return Outcome(parts, " ".join(notes))
 
 
@@ -158,13 +158,13 @@ def damping(ensemble) -> Outcome:
         came = np.isfinite(of["second_time"]).sum(axis=0)
         for run, times in enumerate(ratio):
             name = f"η_0 = {times:.3g} ω_i, {where}"
-            if times < 2.0 + SAME:
+            if times < 2.0 + TOLERANCE:
                 notes.append(f"At {name} {came[run]} of {known} come to a second instability.")
             largest = mean(np.log10(of["largest_square"][:, run]))
-            if times < 1.0 - SAME:
-                parts.append(Part(name, largest, low=SLIGHT))
-            elif times > 2.0 + SAME:
-                parts.append(Part(name, largest, high=SLIGHT))
+            if times < 1.0 - TOLERANCE:
+                parts.append(Part(name, largest, low=LOG_CONTACT_CHANGE))
+            elif times > 2.0 + TOLERANCE:
+                parts.append(Part(name, largest, high=LOG_CONTACT_CHANGE))
             else:
                 rate = mean(of["displacement_rate"][:, run] / of["rate_linear"])
                 notes.append(f"At {name} M grows to log10 M = {largest}, at {rate} ω_i.")

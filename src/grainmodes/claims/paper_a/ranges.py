@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-SMALL = 1e-4
+SMALL_KAPPA = 1e-4
 """k_T/k_N up to which A finds no influence of k_T (Fig. 5)."""
 
-LARGE = 1.0
+LARGE_KAPPA = 1.0
 """k_T/k_N from which on A's bands are one; "large" where A says so without a number."""
 
-WEAK = 1e-8
+WEAK_KAPPA = 1e-8
 """k_T/k_N of A's Figs. 11, 15 and 16, and of the first rattlers of Fig. 14."""
 
-SAME = 0.01
+TOLERANCE = 0.01
 """Relative difference of two moduli that a figure of A does not show."""
