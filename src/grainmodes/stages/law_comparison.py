@@ -1,11 +1,12 @@
 """The stage `law_comparison`: every packing of a block under every tangential law, side by side.
 
-The laws share the normal law, k_T and μ of the scene; those without slip have no use for μ. They
-see the same states of strain, of which one that a law did not reach is NaN there.
+The laws share the normal law, k_T and μ of the scene; those without slip do not use μ. All of them
+are compared at the same strains; what a law did not reach is NaN.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, replace
 
 import numpy as np
@@ -22,7 +23,7 @@ from grainmodes.stages.samples import jammed_packing
 
 
 def law_comparison_block(packings: Block, law: ContactLaw, choices: Shear) -> Block:
-    """Pairs, rates and growth of every packing under every law."""
+    """Numbers of pairs and growth rates of every packing under every tangential law."""
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, Interaction.from_law(law))
@@ -30,35 +31,32 @@ def law_comparison_block(packings: Block, law: ContactLaw, choices: Shear) -> Bl
             return {"comparison_count": 0, "jammed": False, "converged": True}
         if packing.n > MAX_GRAINS:
             raise ValueError(f"expected at most {MAX_GRAINS} grains, got {packing.n}")
-        return row_of(variants(packing, law, choices))
+        return comparison_row(shear_under_all_laws(packing, law, choices))
 
     config = {"law": asdict(law), "shear": asdict(choices)}
     return response_block(packings, "law_comparison", config, law, sample)
 
 
-def variants(packing: Packing, law: ContactLaw, choices: Shear) -> dict[str, Variant]:
-    """The packing under every law, by the name of its tangential part."""
-    return {
-        name: variant(packing, Interaction.from_law(_with(law, name)), choices)
-        for name in TANGENTIAL_LAWS
-    }
+def shear_under_all_laws(packing: Packing, law: ContactLaw, choices: Shear) -> dict[str, Variant]:
+    """Shear a packing under every tangential law; the result by the name of the law."""
+    found = {}
+    for name in TANGENTIAL_LAWS:
+        friction = None if name in ELASTIC_LAWS else law.friction_coefficient
+        other = replace(law, tangential=name, friction_coefficient=friction)
+        found[name] = variant(packing, Interaction.from_law(other), choices)
+    return found
 
 
-def _with(law: ContactLaw, tangential: str) -> ContactLaw:
-    mu = None if tangential in ELASTIC_LAWS else law.friction_coefficient
-    return replace(law, tangential=tangential, friction_coefficient=mu)
-
-
-def row_of(found: dict[str, Variant]) -> dict[str, object]:
-    """All that was seen; not converged where a law ended before the last strain."""
-    longest = max(found.values(), key=lambda of: len(of.seen))
-    row: dict[str, object] = {"comparison_count": len(longest.seen)}
-    row["comparison_strain"] = [seen.strain for seen in longest.seen]
-    for name, of in found.items():
-        for number in Seen._fields[1:]:
-            column = np.full(len(longest.seen), np.nan)
-            column[: len(of.seen)] = [getattr(seen, number) for seen in of.seen]
-            row[f"comparison_{number}_{name}"] = column
-    endings = [f"{name}: {of.ending}" for name, of in found.items() if of.ending]
-    row |= {"jammed": True, "converged": not endings}
-    return row | ({"failure": "; ".join(endings)} if endings else {})
+def comparison_row(variants: Mapping[str, Variant]) -> dict[str, object]:
+    """Everything recorded under every law; not converged where one ended before the last strain."""
+    longest = max((one.seen for one in variants.values()), key=len)
+    row: dict[str, object] = {"comparison_count": len(longest)}
+    row["comparison_strain"] = [state.strain for state in longest]
+    for name, one in variants.items():
+        for quantity in Seen._fields[1:]:
+            column = np.full(len(longest), np.nan)
+            column[: len(one.seen)] = [getattr(state, quantity) for state in one.seen]
+            row[f"comparison_{quantity}_{name}"] = column
+    failures = [f"{name}: {one.ending}" for name, one in variants.items() if one.ending]
+    row |= {"jammed": True, "converged": not failures}
+    return row | ({"failure": "; ".join(failures)} if failures else {})

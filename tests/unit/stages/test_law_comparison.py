@@ -169,7 +169,7 @@ def test_a_law_that_ended_early_is_told():
     seen = [Seen(strain, 1, 0, 2, 0.1, 0.0) for strain in (1e-3, 2e-3)]
     found = dict.fromkeys(TANGENTIAL_LAWS, Variant(seen))
     found["sharp_coulomb"] = Variant(seen[:1], "lost")
-    row = law_comparison.row_of(found)
+    row = law_comparison.comparison_row(found)
     assert row["failure"] == "sharp_coulomb: lost" and not row["converged"]
     np.testing.assert_array_equal(row["comparison_strain"], [1e-3, 2e-3])
     np.testing.assert_array_equal(row["comparison_rate_sharp_coulomb"], [0.1, np.nan])

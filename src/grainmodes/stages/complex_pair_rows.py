@@ -1,0 +1,165 @@
+"""What the tracking of complex pairs leaves behind, as values of one row by the dataset's names."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from grainmodes.complex_pairs.definition import on_all_grains
+from grainmodes.complex_pairs.plane import plane_near
+from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
+from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, Side
+from grainmodes.protocols.pair_tracking.linear_range import Chosen
+from grainmodes.protocols.pair_tracking.paths import path_of, products_along
+from grainmodes.protocols.pair_tracking.tracking import Life, Located, PairWalk
+
+
+def tracking_row(tracking: PairWalk) -> dict[str, object]:
+    """Everything recorded along a shear; not converged where it ended before the last strain."""
+    packing = tracking.now.balance.packing
+    return {
+        **{name: getattr(packing, name) for name in ("diameter", "mass", "box_length")},
+        **_states(tracking),
+        **_tracks(tracking.lives),
+        **_exceptional_points(tracking),
+        **_unstable_state(tracking.unstable),
+        "jammed": True,
+        "converged": tracking.done,
+    }
+
+
+def _states(tracking: PairWalk) -> dict[str, object]:
+    """Every state of the shear in numbers, with ω_r + iω_i of its fastest pair."""
+    states = tracking.counts
+    root = np.sqrt(np.array([state.fastest for state in states]))
+    return {
+        "pair_state_count": len(states),
+        "pair_strain": [state.strain for state in states],
+        "pair_count": [state.pairs for state in states],
+        "pair_count_jacobian": [state.of_jacobian for state in states],
+        "pair_growth": root.imag,
+        "pair_frequency": root.real,
+        "pair_condition": [state.condition for state in states],
+        "pair_dense": [state.dense for state in states],
+    }
+
+
+def _tracks(tracks: Sequence[Life]) -> dict[str, object]:
+    """Every pair with the strains between which it was born and died."""
+    row: dict[str, object] = {"track_count": len(tracks)}
+    if not tracks:
+        return row
+    for event in ("birth", "death"):
+        strains = np.array([getattr(track, event) for track in tracks])
+        row[f"track_{event}_before"] = strains[:, 0]
+        row[f"track_{event}_after"] = strains[:, 1]
+        row[f"track_{event}_kind"] = [getattr(track, f"{event}_kind") for track in tracks]
+    return row | {"track_growth": [track.largest for track in tracks]}
+
+
+def _exceptional_points(tracking: PairWalk) -> dict[str, object]:
+    """The exceptional points, and the two modes near them and along the shear."""
+    located = tracking.located
+    row: dict[str, object] = {"exceptional_point_count": len(located)}
+    if not located:
+        return row
+    points = [one.point for one in located]
+    row |= {
+        "exceptional_point_track": [one.life for one in located],
+        "exceptional_point_birth": [one.born for one in located],
+        "exceptional_point_kind": [point.kind for point in points],
+        "exceptional_point_before": [point.below for point in points],
+        "exceptional_point_after": [point.above for point in points],
+        "exceptional_point_strain": [point.strain for point in points],
+    }
+    for name, real in (("real", True), ("pair", False)):
+        exponents = [point.exponent(real) for point in points]
+        row[f"exceptional_point_exponent_{name}"] = [exponent.value for exponent in exponents]
+        row[f"exceptional_point_exponent_{name}_error"] = [exponent.error for exponent in exponents]
+    return row | _neighbours(located) | _two_modes(tracking) | _products(tracking)
+
+
+def _neighbours(located: Sequence[Located]) -> dict[str, object]:
+    """The states near every exceptional point, with the numbers of the plane of its two modes."""
+    names = ("sum", "discriminant", "product", "condition", "residual")
+    rows = [
+        (place, near.distance, *(getattr(near.plane, name) for name in names))
+        for place, one in enumerate(located)
+        for near in one.point.near
+    ]
+    return _columns("neighbour", ("point", "distance", *names), rows)
+
+
+def _two_modes(tracking: PairWalk) -> dict[str, object]:
+    """The two modes of every coalescence along the shear."""
+    beyond = tracking.asked.track_beyond
+    rows = []
+    for place, one in enumerate(tracking.located):
+        if one.point.kind != COALESCENCE:
+            continue
+        for side in path_of(one.pair, tracking.states, beyond):
+            first, second = side.plane.values
+            product = side.plane.product
+            rows.append((place, side.strain, first.real, second.real, first.imag, product))
+    names = ("point", "strain", "real_1", "real_2", "imaginary", "product")
+    return _columns("followed", names, rows)
+
+
+def _products(tracking: PairWalk) -> dict[str, object]:
+    """Scalar products of a mode of the first coalescence with all others, among few grains."""
+    pairs = [one.pair for one in tracking.located if one.point.kind == COALESCENCE]
+    states = products_along(pairs[0], tracking.states) if pairs else []
+    rows = [
+        (state.strain, state.mode, other, product)
+        for state in states
+        for other, product in enumerate(state.product.tolist())
+        if other != state.mode
+    ]
+    return _columns("product", ("strain", "mode", "other", "value"), rows)
+
+
+def _columns(prefix: str, names: Sequence[str], rows: Sequence[tuple]) -> dict[str, object]:
+    """The columns of some rows as `prefix_name`; nothing if there is no row."""
+    if not rows:
+        return {}
+    columns = zip(names, zip(*rows, strict=True), strict=True)
+    return {f"{prefix}_{name}": values for name, values in columns}
+
+
+def _unstable_state(chosen: Chosen | None) -> dict[str, object]:
+    """The state to release, its pair refined to the last digits."""
+    if chosen is None:
+        return {"unstable_found": False}
+    balance = chosen.state.balance
+    packing, side = balance.packing, chosen.state.side(chosen.place)
+    plane = plane_near(mass_weighted_jacobian(balance.matrix, balance.backbone.mass), side.plane)
+    mode = motion_of(Side(balance, plane))
+    return {
+        "unstable_found": True,
+        "unstable_strain": packing.strain,
+        "unstable_fraction": packing.fraction.T,
+        "unstable_rotation": packing.rotation,
+        "unstable_contact_i": packing.history.i,
+        "unstable_contact_j": packing.history.j,
+        "unstable_spring_state": packing.history.spring_state,
+        "unstable_eigenvalue_real": plane.values[0].real,
+        "unstable_eigenvalue_imag": plane.values[0].imag,
+        "unstable_condition": plane.condition,
+        "unstable_residual": plane.residual,
+        "unstable_linear_range": chosen.room,
+        "unstable_mode_real": mode.real,
+        "unstable_mode_imag": mode.imag,
+    }
+
+
+def motion_of(side: Side) -> np.ndarray:
+    """q = M^(−1/2) u of the first mode of a pair on all grains, (N, 3) complex.
+
+    Its norm is 1 and its largest component real.
+    """
+    balance = side.balance
+    scale = 1.0 / root_mass(balance.backbone.mass).ravel()
+    q = on_all_grains(scale[:, None] * side.plane.vectors[:, :1], balance.held).reshape(-1, 3)
+    largest = q.ravel()[np.argmax(np.abs(q))]
+    return q * (abs(largest) / largest / np.linalg.norm(q))
