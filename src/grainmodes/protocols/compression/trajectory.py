@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from grainmodes.kernels.laws import NormalLaw
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import phi_at_step
@@ -54,7 +55,7 @@ class Trajectory:
     iterations: int
 
 
-def place_at_random(n: int, seed: int, normal, compression: Compression) -> Trajectory:
+def place_at_random(n: int, seed: int, normal: NormalLaw, compression: Compression) -> Trajectory:
     """Place N grains at random, without overlap, at the initial φ.
 
     FIRE pushes uniformly distributed points apart until no two grains touch. Grains are numbered
@@ -88,7 +89,7 @@ def _order_along_rows(points: np.ndarray) -> np.ndarray:
 
 
 def compress_along_grid(
-    start: Trajectory, phi: float, normal, compression: Compression
+    start: Trajectory, phi: float, normal: NormalLaw, compression: Compression
 ) -> Trajectory:
     """Compress to the highest grid point that is not above φ.
 
@@ -104,7 +105,7 @@ def compress_along_grid(
 
 
 def _compress_one_step(
-    before: Trajectory, phi: float, normal, compression: Compression
+    before: Trajectory, phi: float, normal: NormalLaw, compression: Compression
 ) -> Trajectory:
     """Compress to the next grid point and relax to the balance of the protocol there."""
     packing, most = before.packing.at(phi), compression.max_iterations
@@ -122,7 +123,9 @@ def _compress_one_step(
     return Trajectory(relaxed.packing, before.step + 1, phi_jamming, iterations)
 
 
-def compress_to(start: Trajectory, phi: float, normal, compression: Compression) -> Relaxed:
+def compress_to(
+    start: Trajectory, phi: float, normal: NormalLaw, compression: Compression
+) -> Relaxed:
     """The packing at φ in its final balance, max|F| < F_Th, on a branch from the grid.
 
     Its `iterations` count all iterations since the random placement.
