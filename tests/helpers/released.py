@@ -21,7 +21,7 @@ from grainmodes.protocols.release.unstable_state import UnstableState
 from grainmodes.stages.rows import block_of
 
 SHORT = Release(duration=18.0, min_time=0.0, n_records=600, spectra=0)
-"""Long enough for ten e-folds of the fastest pair from its kick on; ends before contacts change."""
+"""Ten e-folds of the fastest pair from its start on; it ends before contacts change."""
 
 
 @cache
