@@ -26,7 +26,7 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.first_event import accepted_steps
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
-from grainmodes.relaxation.frictionless import relax_fast
+from grainmodes.relaxation.frictionless import relax_fire_newton
 from grainmodes.stages.rows import SAMPLE_ERRORS
 from measurements.accuracy.diagram import FAILED, Diagram, Row, Sample, Size, apart, of, row, timed
 from measurements.accuracy.packings import compressed
@@ -86,7 +86,7 @@ def measure(size: Size) -> Iterator[Row]:
 def harmonic(n: int, seed: int) -> Packing:
     """A packing of harmonic grains in its final balance."""
     packing = compressed(n, seed, PHI)
-    return relax_fast(packing, FRICTION.normal, SHIPPED.force_tolerance, 10_000_000).packing
+    return relax_fire_newton(packing, FRICTION.normal, SHIPPED.force_tolerance, 10_000_000).packing
 
 
 def sampled(name: str, width: float, packings: list[Packing], exact: list[float]) -> list[Sample]:

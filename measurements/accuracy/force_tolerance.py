@@ -28,7 +28,7 @@ from grainmodes.packing.contacts import rattlers
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.relaxation.frictionless import relax_fast, relax_fire
+from grainmodes.relaxation.frictionless import relax_fire, relax_fire_newton
 from grainmodes.relaxation.newton import newton
 from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import Eigenproblem
@@ -43,7 +43,7 @@ PHI, STEP, INTERACTION = 0.85, 1e-3, Interaction.from_law(ContactLaw(kt=1.0))
 SHIPPED = Compression()
 TOLERANCES = tuple(10.0**-k for k in range(4, 18))
 
-RELAXATIONS = {"FIRE": relax_fire, "fast": relax_fast}
+RELAXATIONS = {"FIRE": relax_fire, "fast": relax_fire_newton}
 
 CONTACTS = "of the contacts"
 QUANTITIES = ("of g", "of the ten lowest eigenvalues", CONTACTS)

@@ -24,7 +24,7 @@ from grainmodes.kernels.repulsion import mean_force_and_stiffness
 from grainmodes.packing.contacts import History
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.relaxation.frictionless import SKIN, STABILITY
+from grainmodes.relaxation.frictionless import SKIN, STABILITY_FRACTION
 from measurements.accuracy.packings import HERTZ
 
 ROUGH = Interaction.from_law(ContactLaw(kt=1.0))
@@ -88,7 +88,7 @@ def descended(packing: Packing, precision: Precision, steps: int) -> tuple[Packi
     x, y = packing.fraction.copy()
     pairs = find_neighbours(x, y, packing.diameter, packing.box_length, 0.0, SKIN)
     _, stiffness = mean_force_and_stiffness(x, y, packing.box_length, 0.0, pairs, HERTZ)
-    limit = STABILITY * 2.0 / math.sqrt(stiffness)
+    limit = STABILITY_FRACTION * 2.0 / math.sqrt(stiffness)
     scale, contact_distance = (
         precision.overlap(packing.box_length * FRACTION_UNIT),
         pairs.contact_distance,

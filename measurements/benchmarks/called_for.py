@@ -24,7 +24,12 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.relaxation.dynamics import move
-from grainmodes.relaxation.frictionless import SKIN, STABILITY, UNLIMITED, relax_loosely
+from grainmodes.relaxation.frictionless import (
+    NO_TIME_STEP_LIMIT,
+    SKIN,
+    STABILITY_FRACTION,
+    relax_fire_large_steps,
+)
 from grainmodes.relaxation.newton import newton
 from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import Eigenproblem, average_in_bins, full_spectrum
@@ -76,8 +81,8 @@ STATES = (
 def fire_steps(strain: float, n: int) -> Work:
     """400 steps of FIRE near balance."""
     start = quenched(n, 0.9, 1e-5).sheared(strain)
-    packing = relax_loosely(start, HERTZ, 1e-5, 0.0, 20_000).packing
-    settings = FireSettings(1e-30, 0.0, UNLIMITED, STABILITY, SKIN, 400)
+    packing = relax_fire_large_steps(start, HERTZ, 1e-5, 0.0, 20_000).packing
+    settings = FireSettings(1e-30, 0.0, NO_TIME_STEP_LIMIT, STABILITY_FRACTION, SKIN, 400)
 
     def work():
         x, y = packing.fraction.copy()

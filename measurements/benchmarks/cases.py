@@ -36,7 +36,7 @@ from grainmodes.protocols.pair_tracking.tracking import PairWalk
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.protocols.shear.strain_step import first_balance, step_to
 from grainmodes.relaxation.dynamics import move
-from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
+from grainmodes.relaxation.frictionless import relax_fire_large_steps, relax_fire_newton
 from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import Eigenproblem, SpectrumChoices, full_spectrum, packing_spectrum
 from grainmodes.spectrum.inertia_counts import count_below, rotational_sums
@@ -56,12 +56,12 @@ def cpu(work, *arguments) -> float:
 def quenched(n: int, phi: float, tolerance: float = 1e-7):
     """A packing at φ straight from random placement: good enough to time kernels on."""
     packing = place_at_random(n, 0, HERTZ, PROTOCOL).packing.at(phi)
-    return relax_loosely(packing, HERTZ, tolerance, 0.0, 20_000).packing
+    return relax_fire_large_steps(packing, HERTZ, tolerance, 0.0, 20_000).packing
 
 
 def balanced_at(n: int, phi: float):
     """A packing in final balance, quenched."""
-    return relax_fast(quenched(n, phi), HERTZ, 1e-14, 1_000_000).packing
+    return relax_fire_newton(quenched(n, phi), HERTZ, 1e-14, 1_000_000).packing
 
 
 def compression_in_large_steps(n: int) -> float:
@@ -72,7 +72,7 @@ def compression_in_large_steps(n: int) -> float:
 
     def climb(packing, steps):
         for k in range(1, steps + 1):
-            packing = relax_fast(
+            packing = relax_fire_newton(
                 packing.at(phi_at_step(0.8, 1e-3, k)), HERTZ, 1e-10, 10_000_000
             ).packing
 
@@ -240,7 +240,7 @@ HARMONIC = Interaction.from_law(ContactLaw("harmonic", "elastic", 1.0))
 
 def harmonic_at(n: int, phi: float):
     """A harmonic packing in final balance, from a Hertzian one."""
-    return relax_fast(balanced_at(n, phi), HARMONIC.normal, 1e-14, 10_000_000).packing
+    return relax_fire_newton(balanced_at(n, phi), HARMONIC.normal, 1e-14, 10_000_000).packing
 
 
 def shear_by_newton(n: int) -> float:

@@ -20,7 +20,7 @@ from grainmodes.cost.work import USUAL_STEP
 from grainmodes.dataset.files import read_block, write_block
 from grainmodes.parameters.grid import checkpoints_up_to
 from grainmodes.protocols.compression.trajectory import compress_along_grid, place_at_random
-from grainmodes.relaxation.frictionless import relax_fast
+from grainmodes.relaxation.frictionless import relax_fire_newton
 from grainmodes.stages.rows import block_of
 from grainmodes.stages.samples import packed
 from measurements.benchmarks import cases
@@ -109,7 +109,9 @@ def bare(folder: Path) -> float:
 
 def _balance(n: int) -> float:
     loose = cases.quenched(n, PHI, LOOSE)
-    return cases.cpu(relax_fast, loose, HERTZ, PROTOCOL.force_tolerance, PROTOCOL.max_iterations)
+    return cases.cpu(
+        relax_fire_newton, loose, HERTZ, PROTOCOL.force_tolerance, PROTOCOL.max_iterations
+    )
 
 
 def _respond(work: str, n: int, folder: Path) -> float:

@@ -21,7 +21,7 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, ExceptionalPoint
 from grainmodes.protocols.pair_tracking.tracking import PairWalk
-from grainmodes.relaxation.frictionless import relax_fast
+from grainmodes.relaxation.frictionless import relax_fire_newton
 from grainmodes.spectrum import Eigenproblem, slice_eigenpairs, spectrum_slicing
 from grainmodes.stages.compression import compress_block
 
@@ -35,9 +35,9 @@ def test_two_grains_at_one_place_have_no_normal():
     with pytest.raises(PackingError, match="grains 5 and 2 lie at the same place"):
         find_contacts(packing)
     with pytest.raises(ArithmeticError, match="two grains may lie at the same place"):
-        relax_fast(packing, Hertz(1.0), 1e-14, 1000)
+        relax_fire_newton(packing, Hertz(1.0), 1e-14, 1000)
     apart = packing.displaced(np.where(np.arange(16) == 5, 1e-15, 0.0)[:, None] * [1.0, 0.0])
-    assert relax_fast(apart, Hertz(1.0), 1e-14, 100_000).converged
+    assert relax_fire_newton(apart, Hertz(1.0), 1e-14, 100_000).converged
 
 
 def test_a_sample_with_two_grains_at_one_place_fails_alone():

@@ -20,7 +20,7 @@ from grainmodes.protocols.compression.trajectory import (
 )
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.protocols.shear.step_strain import step_strain
-from grainmodes.relaxation.balance import Balance
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.response.moduli import rigidity
 from grainmodes.stages.compression import compress_block, packing_block
 
@@ -65,7 +65,7 @@ def test_a_stable_packing_may_have_a_negative_g():
     """σ then falls without an event: a rule that takes each fall for one finds one a step."""
     packing, interaction = quenched(64, 0.845), elastic("hertz", 1e-8)
     g = rigidity(packing, interaction).unloaded.g
-    assert g < -1e-4 and not Balance.of(packing, interaction).unstable
+    assert g < -1e-4 and not EquilibriumState.from_packing(packing, interaction).unstable
     assert g == pytest.approx(step_strain(packing, interaction, StepStrain()).g, rel=1e-6)
     choices = Shear(strain=3e-6, step=1e-6, min_step=1e-8)
     run = QuasistaticRun.from_packing(packing, interaction, choices)

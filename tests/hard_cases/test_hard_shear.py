@@ -17,9 +17,9 @@ from grainmodes.parameters.strain import Shear, StepStrain
 from grainmodes.protocols.shear.first_event import accepted_steps
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.protocols.shear.strain_step import step_to, strained_affinely
-from grainmodes.relaxation.balance import Balance
 from grainmodes.relaxation.dynamics import relax_damped
-from grainmodes.relaxation.following import find_balance
+from grainmodes.relaxation.equilibrium_search import find_equilibrium
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.relaxation.newton import newton
 from grainmodes.stages.rows import block_of
 from grainmodes.stages.samples import packed
@@ -30,7 +30,7 @@ FREE = Interaction.from_law(ContactLaw("harmonic"))
 CHOICES = Shear(0.1, 1e-3, 1e-6)
 
 
-def before_the_first_event(name: str, interaction) -> Balance:
+def before_the_first_event(name: str, interaction) -> EquilibriumState:
     """The last balance before the first plastic event, which is 1e-6 away."""
     run = QuasistaticRun.from_packing(reference(name)[1], interaction, CHOICES)
     return next(before for before, _ in accepted_steps(run) if run.events).balance
@@ -57,7 +57,7 @@ def test_newton_from_beyond_an_event_is_not_believed():
 def test_a_saddle_beyond_an_event_is_left():
     before = before_the_first_event("harmonic_n64_phi0.860_seed2", FREE)
     strain = before.packing.strain + 1e-4
-    saddle = find_balance(strained_affinely(before, strain, False), FREE, 1e-14)
+    saddle = find_equilibrium(strained_affinely(before, strain, False), FREE, 1e-14)
     assert saddle is not None and saddle.residual < 1e-14 and saddle.unstable
     found, jumped = step_to(strain, before, CHOICES)
     assert jumped and not found.unstable and found.residual < 1e-14

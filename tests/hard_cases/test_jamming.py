@@ -15,7 +15,7 @@ from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import step_strain
-from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
+from grainmodes.relaxation.frictionless import relax_fire_large_steps, relax_fire_newton
 from grainmodes.response.moduli import rigidity
 from grainmodes.stages.rigidity import rigidity_block
 from grainmodes.stages.rows import block_of
@@ -45,7 +45,7 @@ def loosened(finest: float) -> tuple[Packing, list[Packing]]:
     """The last packing that is jammed, to `finest` in φ, and those just below it, nearest last."""
     above, phi, step, below = reference(ELASTIC[2])[1], 0.86, 1e-3, []
     while step > 0.9 * finest:
-        relaxed = relax_fast(above.at(phi - step), Hertz(1.0), 1e-14, BUDGET)
+        relaxed = relax_fire_newton(above.at(phi - step), Hertz(1.0), 1e-14, BUDGET)
         assert relaxed.converged
         if jammed(relaxed.packing):
             above, phi = relaxed.packing, phi - step
@@ -65,8 +65,8 @@ def test_just_above_jamming_the_balance_is_that_of_the_contacts():
     above = loosened(1e-5)[0]
     assert 1e-10 < load(above) < 1e-8
     denser = above.at(above.phi + 1e-7)
-    naive = relax_loosely(denser, Hertz(1.0), 1e-10, 0.0, BUDGET)
-    found = relax_fast(denser, Hertz(1.0), 1e-14, BUDGET)
+    naive = relax_fire_large_steps(denser, Hertz(1.0), 1e-10, 0.0, BUDGET)
+    found = relax_fire_newton(denser, Hertz(1.0), 1e-14, BUDGET)
     assert naive.converged and naive.iterations == 0 and found.converged
     assert abs(load(naive.packing) / load(found.packing) - 1.0) > 0.005
     assert found.max_force < 1e-5 * load(found.packing)

@@ -13,7 +13,7 @@ from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.state import Packing, PackingError, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.dynamics import move
-from grainmodes.relaxation.frictionless import relax_fast
+from grainmodes.relaxation.frictionless import relax_fire_newton
 from grainmodes.response.moduli import rigidity
 
 COPIES = 64
@@ -26,7 +26,7 @@ def rest(packing: Packing) -> float:
 
 def at_rest() -> Packing:
     """Sixteen grains in balance to 1e-15."""
-    relaxed = relax_fast(reference(MINIMAL[0])[1], Hertz(1.0), 1e-15, 10_000)
+    relaxed = relax_fire_newton(reference(MINIMAL[0])[1], Hertz(1.0), 1e-15, 10_000)
     assert relaxed.converged
     return relaxed.packing
 

@@ -22,7 +22,7 @@ from grainmodes.protocols.compression.trajectory import (
     compress_to,
     place_at_random,
 )
-from grainmodes.relaxation.frictionless import relax_fast, relax_loosely
+from grainmodes.relaxation.frictionless import relax_fire_large_steps, relax_fire_newton
 
 DATA = Path(__file__).parents[1] / "data"
 KTS = (1e-8, 1e-4, 1e-2, 1.0, 2.0, 10.0)
@@ -183,5 +183,5 @@ def quenched(n: int, phi: float, seed: int = 0) -> Packing:
         return compress_to(
             compress_along_grid(start, phi, law, protocol), phi, law, protocol
         ).packing
-    loose = relax_loosely(start.packing.at(phi), law, 1e-7, 0.0, 100_000).packing
-    return relax_fast(loose, law, 1e-14, 1_000_000).packing
+    loose = relax_fire_large_steps(start.packing.at(phi), law, 1e-7, 0.0, 100_000).packing
+    return relax_fire_newton(loose, law, 1e-14, 1_000_000).packing

@@ -14,7 +14,7 @@ from grainmodes.dataset.files import read_block, write_block
 from grainmodes.kernels.laws import Hertz
 from grainmodes.parameters.compression import Compression
 from grainmodes.protocols.compression.trajectory import Trajectory, place_at_random
-from grainmodes.relaxation.frictionless import relax_loosely
+from grainmodes.relaxation.frictionless import relax_fire_large_steps
 from grainmodes.stages.rows import block_of, described
 from grainmodes.stages.samples import checkpoint
 
@@ -35,7 +35,7 @@ def start(tmp_path_factory) -> Path:
     """A checkpoint at φ straight from random placement, in the loose balance of a trajectory."""
     law, protocol = Hertz(1.0), Compression()
     first = place_at_random(N, 0, law, protocol).packing.at(PHI)
-    loose = relax_loosely(first, law, 0.0, protocol.intermediate_balance, 20_000)
+    loose = relax_fire_large_steps(first, law, 0.0, protocol.intermediate_balance, 20_000)
     steps = round((PHI - protocol.initial_phi) / protocol.phi_step)
     row = checkpoint(Trajectory(loose.packing, steps, 0.84, loose.iterations))
     config = {"compression": asdict(protocol), "normal": "hertz"}

@@ -19,7 +19,7 @@ from grainmodes.protocols.shear.events import RIGIDITY_DROP
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.protocols.shear.sheared_state import ShearedState
 from grainmodes.protocols.shear.strain_step import first_balance, step_to
-from grainmodes.relaxation.frictionless import relax_fast
+from grainmodes.relaxation.frictionless import relax_fire_newton
 from grainmodes.stages.shear_rows import run_row
 
 B = ContactLaw("harmonic", "elastic", 1.0)
@@ -38,7 +38,7 @@ def sheared(packing: Packing, law: ContactLaw, choices: Shear) -> QuasistaticRun
 @cache
 def harmonic(n: int, seed: int) -> Packing:
     """A harmonic packing in balance at φ = 0.90, from a Hertzian one."""
-    return relax_fast(quenched(n, 0.90, seed), Harmonic(1.0), 1e-14, 1_000_000).packing
+    return relax_fire_newton(quenched(n, 0.90, seed), Harmonic(1.0), 1e-14, 1_000_000).packing
 
 
 def state_at(packing: Packing, law: ContactLaw, choices: Shear) -> ShearedState:

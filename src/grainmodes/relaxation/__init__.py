@@ -1,1 +1,1 @@
-"""Ways to force balance behind one interface: each returns a `Relaxed`."""
+"""Ways to force balance: each returns the packing and how well it is balanced."""

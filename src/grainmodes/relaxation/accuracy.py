@@ -1,8 +1,9 @@
 """How accurate one step of the damped dynamics is: A, Appendix B 1.
 
-A step of Δt from a state on the move is compared with 32 steps of Δt/32. Its error is of order
-Δt^(p+1), and p the order up to which the step is right. Where the forces depend on the velocity,
-A finds p = 2 in q and p = 1 in q̇. Over a given time these errors add up to order 1 in both.
+A step of Δt from a state in motion is compared with 32 steps of Δt/32. Its error is of order
+Δt^(p+1), where p is the order up to which the step is right. Where the forces depend on the
+velocity, A finds p = 2 in q and p = 1 in q̇. Over a given time these errors add up to order 1 in
+both.
 """
 
 from __future__ import annotations
@@ -11,18 +12,19 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.neighbours import FRACTION_UNIT
 from grainmodes.packing.state import Packing
-from grainmodes.relaxation.dynamics import Motion, move
+from grainmodes.relaxation.dynamics import Damping, Motion, move
 
 TIME_STEP = 1e-3
 """Longest Δt, in t_0: a tenth of A's, so that the next order does not show."""
 
-SUBSTEPS = 32
-"""Steps of the reference within Δt."""
+REFERENCE_STEPS = 32
+"""Number of steps of the reference within Δt."""
 
 AMPLITUDE = 1e-6
 """Size of the displacements and velocities at the start, d and d/t_0: no contact opens."""
@@ -35,8 +37,12 @@ class Orders(NamedTuple):
     velocity: float
 
 
-def step_orders(packing: Packing, interaction: Interaction, damping) -> Orders:
-    """The orders of velocity Verlet on a frictional packing, from steps of Δt and Δt/4."""
+def step_orders(packing: Packing, interaction: Interaction, damping: Damping) -> Orders:
+    """The orders p of velocity Verlet on a frictional packing, from steps of Δt and Δt/4.
+
+    Raises:
+        ArithmeticError: the motion grew beyond all bounds.
+    """
     kick = AMPLITUDE * np.random.default_rng(0).standard_normal((2, packing.n, 3))
     start = replace(packing.displaced(kick[0, :, :2]), rotation=kick[0, :, 2])
     coarse, fine = (
@@ -46,11 +52,17 @@ def step_orders(packing: Packing, interaction: Interaction, damping) -> Orders:
     return Orders(*(np.log2(coarse / fine) / 2.0 - 1.0).tolist())
 
 
-def _errors(start: Packing, velocity: np.ndarray, interaction, damping, time_step: float):
+def _errors(
+    start: Packing,
+    velocity: NDArray[np.float64],
+    interaction: Interaction,
+    damping: Damping,
+    time_step: float,
+) -> NDArray[np.float64]:
     """Errors (2,) of q and q̇ after one step, root of the sum of squares."""
     once, often = (
         move(start, velocity, interaction, damping, time_step / steps, Stop(0.0, steps))
-        for steps in (1, SUBSTEPS)
+        for steps in (1, REFERENCE_STEPS)
     )
     return np.array([_distance(once, often), np.linalg.norm(once.velocity - often.velocity)])
 

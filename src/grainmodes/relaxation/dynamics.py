@@ -1,8 +1,14 @@
 """Damped dynamics to force balance, and dynamics for a given time: A (1)–(9), Appendix B.
 
-The reference for every frictional relaxation: nothing is assumed but the forces. At small k_T/k_N
-the rotations are slow, ω ~ √κ, and millions of steps are needed; Newton's method reaches the same
-state (up to the path dependence of s, of second order in the strain).
+This is the reference for every frictional relaxation: nothing is assumed but the forces. At small
+κ = k_T/k_N the rotations are slow, ω ~ √κ, and millions of steps are needed. Newton's method
+reaches the same state, up to the path dependence of s, which is of second order in the strain.
+
+| symbol      | name        | shape, type         | unit                      |
+| ----------- | ----------- | ------------------- | ------------------------- |
+| q̇           | velocity    | (N, 3) float64      | d/t_0, of (x, y, ℓ)       |
+| Δt          | time_step   | float               | t_0                       |
+| s           | spring      | (pairs,) float64    | as the law stores it      |
 """
 
 from __future__ import annotations
@@ -10,14 +16,18 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
+from grainmodes.kernels.damping import Dashpot, Drag, Undamped
 from grainmodes.kernels.dynamics import Grains, Stop, integrate, transfer_springs
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.neighbours import Neighbours, find_neighbours
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.state import Packing, find_contacts
-from grainmodes.relaxation.result import Relaxed
+from grainmodes.relaxation.result import RelaxationResult
+
+Damping = Dashpot | Drag | Undamped
 
 SKIN = 0.2
 """Verlet skin in d."""
@@ -25,23 +35,32 @@ SKIN = 0.2
 
 @dataclass(frozen=True)
 class Motion:
-    """A packing on the move: velocities of (x, y, ℓ), (N, 3) in d/t_0."""
+    """A packing in motion.
+
+    `velocity` is that of (x, y, ℓ), (N, 3) in d/t_0; `steps` were taken to get here;
+    `residual_motion` is what remains of it (`kernels.dynamics.residual_motion`).
+    """
 
     packing: Packing
-    velocity: np.ndarray
+    velocity: NDArray[np.float64]
     steps: int
     residual_motion: float
 
 
 def move(
     packing: Packing,
-    velocity: np.ndarray,
+    velocity: NDArray[np.float64],
     interaction: Interaction,
-    damping,
+    damping: Damping,
     time_step: float,
     stop: Stop,
 ) -> Motion:
-    """Integrate a frictional packing from `velocity` (N, 3) until `stop`.
+    """Integrate the motion of a frictional packing: A (1)–(9).
+
+    Args:
+        velocity: (N, 3) of (x, y, ℓ) at the start, in d/t_0.
+        time_step: Δt in t_0.
+        stop: when to stop.
 
     Raises:
         ArithmeticError: the motion grew beyond all bounds: the time step is too long.
@@ -79,46 +98,50 @@ def move(
 def relax_damped(
     packing: Packing,
     interaction: Interaction,
-    damping,
+    damping: Damping,
     time_step: float,
     tolerance: float,
     max_steps: int,
-) -> Relaxed:
-    """From rest until max|F̃| < `tolerance`, judged on the forces without damping.
+) -> RelaxationResult:
+    """Relax from rest until max|F̃| < `tolerance`, where F̃ is without the damping forces.
 
     The allowed residual motion is lowered until the contact forces are below the tolerance.
+
+    Args:
+        time_step: Δt in t_0.
+        tolerance: in k_N d^(3/2), for forces and scaled torques.
 
     Raises:
         ArithmeticError: as `move`.
     """
     now = Motion(packing, np.zeros((packing.n, 3)), 0, np.inf)
-    allowed, steps = tolerance, 0
+    allowed_motion, steps = tolerance, 0
     while True:
-        stop = Stop(allowed, max_steps - steps)
+        stop = Stop(allowed_motion, max_steps - steps)
         now = move(now.packing, now.velocity, interaction, damping, time_step, stop)
         steps += now.steps
         force = net_force(now.packing, find_contacts(now.packing), interaction)
         max_force, max_torque = largest(force)
         converged = max(max_force, max_torque) < tolerance
         if converged or steps >= max_steps:
-            return Relaxed(now.packing, converged, steps, max_force, max_torque)
-        allowed *= 0.25
+            return RelaxationResult(now.packing, converged, steps, max_force, max_torque)
+        allowed_motion *= 0.25
 
 
-def _grains(packing: Packing, velocity: np.ndarray) -> Grains:
+def _grains(packing: Packing, velocity: NDArray[np.float64]) -> Grains:
     x, y = packing.fraction.copy()
     vx, vy, w = np.array(velocity.T, order="C")
     rotation = np.zeros(packing.n) if packing.rotation is None else packing.rotation.copy()
-    nothing = np.zeros((3, packing.n))
-    return Grains(x, y, vx, vy, w, *nothing, rotation, packing.mass, packing.diameter)
+    no_force = np.zeros((3, packing.n))
+    return Grains(x, y, vx, vy, w, *no_force, rotation, packing.mass, packing.diameter)
 
 
-def _springs(packing: Packing, pairs: Neighbours) -> np.ndarray:
-    """s of every listed pair from the history; zero elsewhere."""
+def _springs(packing: Packing, pairs: Neighbours) -> NDArray[np.float64]:
+    """s of every pair in the neighbour list: from the history, or zero."""
     history = packing.history
     if history is None:
         return np.zeros(len(pairs.left))
-    # The history stores i > j sorted by (i, j); the list wants left < right sorted by left.
+    # The history stores i > j sorted by (i, j); the list needs left < right sorted by left.
     order = np.lexsort((history.i, history.j))
     left, right = history.j[order], history.i[order].astype(np.uint32)
     first = np.searchsorted(left, np.arange(packing.n + 1))
@@ -126,9 +149,9 @@ def _springs(packing: Packing, pairs: Neighbours) -> np.ndarray:
     return transfer_springs(known, history.spring_state[order], pairs)
 
 
-def _history(pairs: Neighbours, spring: np.ndarray) -> History:
-    """The springs that are loaded, as i > j sorted by (i, j)."""
-    held = np.flatnonzero(spring)
-    i, j = pairs.right[held].astype(np.int32), pairs.left[held].astype(np.int32)
+def _history(pairs: Neighbours, spring: NDArray[np.float64]) -> History:
+    """The springs with s ≠ 0, as pairs i > j sorted by (i, j)."""
+    loaded = np.flatnonzero(spring)
+    i, j = pairs.right[loaded].astype(np.int32), pairs.left[loaded].astype(np.int32)
     order = np.lexsort((j, i))
-    return History(i[order], j[order], spring[held][order])
+    return History(i[order], j[order], spring[loaded][order])

@@ -1,22 +1,32 @@
-"""Newton's method for force balance: J u = F̃, a handful of sparse solves.
+"""Newton's method for force balance: J u = F̃, a handful of sparse solutions.
 
-Quadratic near a balance, lost far from one, so every step must lower max|F̃|; where none does, the
-iteration stops unconverged and the caller goes back to dynamics. Contacts are found anew at every
-iterate. A frictional step carries the tangential springs along (`springs`),
+It converges quadratically near a balance and fails far from one. Therefore every step must lower
+max|F̃|; where none does, the iteration stops unconverged and the caller returns to dynamics. The
+contacts are found again at every iterate. A frictional step advances the tangential springs
+(`kernels.springs`),
 
     s → s + t·δr + δℓ     t at the middle of the step: error O(δ³)
 
-with s = 0 for a pair at first touch, so a path through n iterates is a path of n short strains.
+with s = 0 for a pair at its first touch, so that a path through n iterates is a path of n short
+strains.
 
-The packing must be without rattlers: a lone Hertz contact relaxes only as ξ → ξ/3 a step, and a
-grain without contacts makes J singular.
+The packing must have no rattlers: the overlap ξ of a single Hertzian contact falls only to ξ/3 in a
+step, and a grain without contacts makes J singular.
+
+| symbol  | name             | shape           | unit        |
+| ------- | ---------------- | --------------- | ----------- |
+| F̃       | force            | (N, k) float64  | k_N d^(3/2) |
+| u       | u                | (N, k) float64  | d           |
+| s       | spring_state     | (C,) float64    | d           |
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.springs import advance_springs, clip_springs
@@ -25,68 +35,90 @@ from grainmodes.packing.contacts import Contacts, History
 from grainmodes.packing.forces import is_frictionless, largest, net_force
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing, find_contacts
-from grainmodes.relaxation.result import Relaxed
+from grainmodes.relaxation.backtracking import backtrack
+from grainmodes.relaxation.result import RelaxationResult
 
-SHORTEST_STEP = 0.1
-"""Fraction of a Newton step below which it is given up: the balance is not near."""
+
+class _Iterate(NamedTuple):
+    """A packing with its contacts and the net forces F̃ (N, k) of them."""
+
+    packing: Packing
+    contacts: Contacts
+    force: NDArray[np.float64]
 
 
 def newton(
     packing: Packing, interaction: Interaction, tolerance: float, max_iterations: int = 8
-) -> Relaxed:
-    """Relax a packing without rattlers until max|F̃| < `tolerance`; at least one step is taken."""
+) -> RelaxationResult:
+    """Relax a packing without rattlers until max|F̃| < `tolerance`; at least one step is taken.
+
+    Args:
+        tolerance: in k_N d^(3/2), for forces and scaled torques.
+
+    Raises:
+        PackingError: two grains lie at the same place.
+    """
     contacts = find_contacts(packing)
-    force = net_force(packing, contacts, interaction)
-    for iteration in range(1, max_iterations + 1):
-        trial = _step(packing, contacts, interaction, force)
-        if trial is None:
-            return _result(packing, force, tolerance, iteration)
-        packing, contacts, force = trial
-        if max(largest(force)) < tolerance:
+    now = _Iterate(packing, contacts, net_force(packing, contacts, interaction))
+    iterations = 0
+    while iterations < max_iterations:
+        iterations += 1
+        after = _newton_step(now, interaction)
+        if after is None:
             break
-    return _result(packing, force, tolerance, iteration)
-
-
-def _result(packing: Packing, force: np.ndarray, tolerance: float, iterations: int) -> Relaxed:
-    max_force, max_torque = largest(force)
+        now = after
+        if max(largest(now.force)) < tolerance:
+            break
+    max_force, max_torque = largest(now.force)
     converged = max(max_force, max_torque) < tolerance
-    return Relaxed(packing, converged, iterations, max_force, max_torque)
+    return RelaxationResult(now.packing, converged, iterations, max_force, max_torque)
 
 
-def _step(packing, contacts, interaction, force):
+def _newton_step(now: _Iterate, interaction: Interaction) -> _Iterate | None:
     """The Newton step, shortened until max|F̃| falls; None if it never does."""
+    packing, contacts, force = now
     matrix = jacobian(packing, contacts, interaction)
     try:
-        u = PinnedFactor(matrix, contacts.spring_state is None).solve(force)
+        u = PinnedFactor(matrix, symmetric=contacts.spring_state is None).solve(force)
     except FloppyError:
         return None
-    u = u.reshape(packing.n, -1)
-    goal, length = max(largest(force)), 1.0
-    while length >= SHORTEST_STEP:
-        moved = moved_by(packing, contacts, interaction, length * u)
-        moved, touching = slipped(moved, interaction)
-        left = net_force(moved, touching, interaction)
-        if max(largest(left)) < goal or goal == 0.0:
-            return moved, touching, left
-        length *= 0.5
-    return None
+    u, residual = u.reshape(packing.n, -1), max(largest(force))
+
+    def after(fraction: float) -> _Iterate:
+        displaced = displace_with_springs(packing, contacts, interaction, fraction * u)
+        slipped, touching = apply_slip(displaced, interaction)
+        return _Iterate(slipped, touching, net_force(slipped, touching, interaction))
+
+    def improves(trial: _Iterate) -> bool:
+        return max(largest(trial.force)) < residual or residual == 0.0
+
+    return backtrack(after, improves)
 
 
-def moved_by(
-    packing: Packing, contacts: Contacts, interaction: Interaction, u: np.ndarray
+def displace_with_springs(
+    packing: Packing, contacts: Contacts, interaction: Interaction, u: NDArray[np.float64]
 ) -> Packing:
-    """The packing after a small motion u (N, k), its tangential springs carried along."""
-    moved = packing.displaced(u[:, :2])
+    """The packing after a small displacement u (N, k) in d, its tangential springs advanced.
+
+    Raises:
+        PackingError: u is not finite.
+    """
+    displaced = packing.displaced(u[:, :2])
     if is_frictionless(interaction):
-        return moved
+        return displaced
     rotation = np.zeros(packing.n) if packing.rotation is None else packing.rotation
     c = contacts
     s = advance_springs(interaction, c.normal, c.distance, c.overlap, c.displacement, c.i, c.j, u)
-    return replace(moved, rotation=rotation + u[:, 2], history=History(contacts.i, contacts.j, s))
+    history = History(contacts.i, contacts.j, s)
+    return replace(displaced, rotation=rotation + u[:, 2], history=history)
 
 
-def slipped(packing: Packing, interaction: Interaction) -> tuple[Packing, Contacts]:
-    """The packing and its contacts, each spring no longer than its law lets it be."""
+def apply_slip(packing: Packing, interaction: Interaction) -> tuple[Packing, Contacts]:
+    """The packing and its contacts, after each spring has slipped as far as its law requires.
+
+    Raises:
+        PackingError: two grains lie at the same place.
+    """
     contacts = find_contacts(packing)
     if packing.history is None:
         return packing, contacts

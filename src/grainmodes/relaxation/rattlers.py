@@ -1,37 +1,48 @@
-"""Rattlers out of the way: they carry no load, and a balance needs them to touch nothing."""
+"""Rattlers are moved until they touch nothing: they carry no load, and balance requires it."""
 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from grainmodes.kernels.contacts import normal_slope
-from grainmodes.kernels.laws import Frictionless, Interaction
+from grainmodes.kernels.laws import Frictionless, Interaction, NormalLaw
 from grainmodes.packing.contacts import Contacts
 from grainmodes.packing.forces import net_force
 from grainmodes.packing.state import Packing, find_contacts
 
-TRIES = 100
-"""Moves after which a rattler is left touching: it may be caught between two neighbours."""
+MAX_MOVES = 100
+"""Moves after which a rattler is left where it is: it may be caught between two neighbours."""
+
+STEP_FACTOR = 1.5
+"""Length of a move in Newton steps F/Σf_N'.
+
+Of a single Hertzian contact it reaches zero overlap exactly: f_N/f_N' = 2ξ/3."""
 
 
-def moved_out(packing: Packing, normal, gone: np.ndarray) -> Packing:
-    """The packing with the rattlers of a (N,) mask moved by their normal forces until free.
+def detach_rattlers(packing: Packing, normal: NormalLaw, is_rattler: NDArray[np.bool_]) -> Packing:
+    """The packing with its rattlers moved along their normal forces until they touch nothing.
 
-    Three halves of the Newton step F/Σf_N' takes a lone Hertz contact exactly to zero overlap.
+    Args:
+        normal: the law of the normal force; friction is ignored.
+        is_rattler: (N,) bool, the grains that may be moved.
+
+    Raises:
+        PackingError: two grains lie at the same place.
     """
     interaction = Interaction(normal, Frictionless())
-    for _ in range(TRIES):
+    for _ in range(MAX_MOVES):
         contacts = find_contacts(packing)
-        if not np.any(gone[contacts.i] | gone[contacts.j]):
+        if not np.any(is_rattler[contacts.i] | is_rattler[contacts.j]):
             break
         force = net_force(packing, contacts, interaction)
         stiffness = _grain_stiffness(contacts, normal, packing.n)
-        step = 1.5 * force / np.where(stiffness > 0.0, stiffness, 1.0)[:, None]
-        packing = packing.displaced(np.where(gone[:, None], step, 0.0))
+        step = STEP_FACTOR * force / np.where(stiffness > 0.0, stiffness, 1.0)[:, None]
+        packing = packing.displaced(np.where(is_rattler[:, None], step, 0.0))
     return packing
 
 
-def _grain_stiffness(contacts: Contacts, normal, n: int) -> np.ndarray:
-    """Σ_j f_N'(ξ_ij) of every grain, (N,)."""
+def _grain_stiffness(contacts: Contacts, normal: NormalLaw, n: int) -> NDArray[np.float64]:
+    """Σ_j f_N'(ξ_ij) of every grain, (N,) in k_N d^(1/2)."""
     slope = normal_slope(normal, contacts.overlap)
     return np.bincount(contacts.i, slope, n) + np.bincount(contacts.j, slope, n)

@@ -1,4 +1,4 @@
-"""What every relaxation returns: the state, and how well it is balanced."""
+"""What every relaxation returns: the packing, and how well it is balanced."""
 
 from __future__ import annotations
 
@@ -8,8 +8,12 @@ from grainmodes.packing.state import Packing
 
 
 @dataclass(frozen=True)
-class Relaxed:
-    """A relaxed packing; forces in k_N d^(3/2), `max_torque` scaled by 2/d, 0 without friction."""
+class RelaxationResult:
+    """A relaxed packing, whether it converged, and after how many iterations.
+
+    `max_force` is max|F| and `max_torque` the largest scaled torque 2T/d, both in k_N d^(3/2);
+    `max_torque` is 0 without friction.
+    """
 
     packing: Packing
     converged: bool

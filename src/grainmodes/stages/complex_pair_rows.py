@@ -160,6 +160,8 @@ def motion_of(side: Side) -> np.ndarray:
     """
     balance = side.balance
     scale = 1.0 / root_mass(balance.backbone.mass).ravel()
-    q = on_all_grains(scale[:, None] * side.plane.vectors[:, :1], balance.held).reshape(-1, 3)
+    q = on_all_grains(scale[:, None] * side.plane.vectors[:, :1], balance.backbone_mask).reshape(
+        -1, 3
+    )
     largest = q.ravel()[np.argmax(np.abs(q))]
     return q * (abs(largest) / largest / np.linalg.norm(q))

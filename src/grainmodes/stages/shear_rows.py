@@ -14,7 +14,7 @@ from grainmodes.protocols.shear.events import NetworkChange, PlasticEvent, count
 from grainmodes.protocols.shear.first_event import Bracket
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.protocols.shear.sheared_state import CurvePoint
-from grainmodes.relaxation.balance import Balance
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.response.stability import asymmetry, complex_pairs
 
 MAX_PAIR_DOF = 1200
@@ -84,7 +84,7 @@ def _events(events: Sequence[PlasticEvent], interaction: Interaction) -> dict[st
     multipoles = [rotational_multipoles(event.after, event.displacement) for event in events]
     quadrupole, others = zip(*multipoles, strict=True)
     before, after = (
-        [Balance.of(packing, interaction) for packing in packings]
+        [EquilibriumState.from_packing(packing, interaction) for packing in packings]
         for packings in ([event.before for event in events], [event.after for event in events])
     )
     return {
@@ -107,7 +107,7 @@ def on_every_grain(field: np.ndarray) -> np.ndarray:
     return on_all_grains(field, np.zeros(len(field), bool))
 
 
-def _count_pairs(balance: Balance) -> float:
+def _count_pairs(balance: EquilibriumState) -> float:
     """Number of complex pairs of M⁻¹J, 0 for a symmetric J; NaN where the matrix is too large."""
     if is_frictionless(balance.interaction):
         return 0.0
@@ -117,7 +117,7 @@ def _count_pairs(balance: Balance) -> float:
 
 
 def _states(
-    side: str, balances: Sequence[Balance], points: Sequence[CurvePoint]
+    side: str, balances: Sequence[EquilibriumState], points: Sequence[CurvePoint]
 ) -> dict[str, object]:
     """The states on one side of all events, with their grains and springs."""
     packings = [balance.packing for balance in balances]

@@ -18,7 +18,7 @@ from grainmodes.complex_pairs.refinement import SHARP, nearly_meeting, sharpened
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.protocols.pair_tracking.exceptional_points import fitted
-from grainmodes.relaxation.balance import Balance
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.response.stability import complex_pairs
 
 
@@ -29,10 +29,10 @@ def loaded(matrix: sparse.csr_array, held: np.ndarray | None = None) -> Loaded:
 
 
 @pytest.fixture(scope="module")
-def sheared() -> Balance:
+def sheared() -> EquilibriumState:
     """A state of an independent code with history."""
     data, packing = reference(SHEARED)
-    return Balance.of(packing, Interaction.from_law(smoothed_coulomb(data)))
+    return EquilibriumState.from_packing(packing, Interaction.from_law(smoothed_coulomb(data)))
 
 
 @pytest.fixture(scope="module")
@@ -77,7 +77,9 @@ def test_a_condition_is_what_an_error_grows_by(matrix):
 
 def test_a_symmetric_jacobian_has_no_pair():
     _, packing = reference("hertz_n64_phi0.900_seed1")
-    at_rest = Balance.of(packing, Interaction.from_law(smoothed_coulomb(reference(SHEARED)[0])))
+    at_rest = EquilibriumState.from_packing(
+        packing, Interaction.from_law(smoothed_coulomb(reference(SHEARED)[0]))
+    )
     detector = Carried()
     matrix = mass_weighted_jacobian(at_rest.matrix, at_rest.backbone.mass)
     assert [len(detector.find(loaded(matrix)).value) for _ in range(2)] == [0, 0]

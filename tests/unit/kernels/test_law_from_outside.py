@@ -27,7 +27,7 @@ from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import step_strain
-from grainmodes.relaxation.newton import moved_by, newton
+from grainmodes.relaxation.newton import displace_with_springs, newton
 from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import Eigenproblem, packing_spectrum
 
@@ -92,7 +92,9 @@ def differences(packing: Packing, interaction: Interaction, h: float = 1e-6) -> 
     """−∂F̃/∂q, dense (3N, 3N), by central differences of the net forces."""
     contacts, columns = find_contacts(packing), []
     for u in np.eye(3 * packing.n).reshape(-1, packing.n, 3):
-        ahead, behind = (moved_by(packing, contacts, interaction, way * h * u) for way in (1, -1))
+        ahead, behind = (
+            displace_with_springs(packing, contacts, interaction, way * h * u) for way in (1, -1)
+        )
         forces = (net_force(each, find_contacts(each), interaction) for each in (ahead, behind))
         columns.append(-np.subtract(*forces).ravel() / (2 * h))
     return np.array(columns).T

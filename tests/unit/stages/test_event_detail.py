@@ -147,7 +147,7 @@ def test_a_fold_is_seen_as_one():
 def test_the_lowest_mode_is_that_of_a_dense_spectrum(law, side):
     state = getattr(narrowest(law), side)
     mode, field = lowest_mode_of(state)
-    matrix, held = state.balance.matrix.toarray(), state.balance.held
+    matrix, held = state.balance.matrix.toarray(), state.balance.backbone_mask
     values = np.linalg.eigvals(matrix)
     values = values[np.argsort(np.abs(values))]
     assert mode.eigenvalue == pytest.approx(values[2].real, rel=1e-9)

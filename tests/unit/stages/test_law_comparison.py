@@ -26,7 +26,7 @@ from grainmodes.protocols.shear.coulomb_threshold import (
     fastest_pair,
     slipping_contacts,
 )
-from grainmodes.relaxation.newton import slipped
+from grainmodes.relaxation.newton import apply_slip
 from grainmodes.response.stability import complex_pairs
 from grainmodes.stages import law_comparison
 from grainmodes.stages.samples import packed
@@ -38,7 +38,7 @@ BRIEF = Shear(strain=2e-3, step=1e-4)
 
 def half_slipped(law: ContactLaw):
     """Contacts some of which the law has cut, and the packing."""
-    return slipped(keeping(law, crowd(91, slip=2.5)), Interaction.from_law(law))
+    return apply_slip(keeping(law, crowd(91, slip=2.5)), Interaction.from_law(law))
 
 
 @pytest.mark.parametrize("law", SHARP, ids=law_name)

@@ -38,7 +38,7 @@ from grainmodes.packing.forces import mean_contact_force
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.newton import newton
-from grainmodes.relaxation.result import Relaxed
+from grainmodes.relaxation.result import RelaxationResult
 
 PHI_STEPS = 20
 """Steps n of φ: more of them change the number of pairs no more than another sample would."""
@@ -106,7 +106,7 @@ def expanded_to_contact(packing: Packing) -> Packing:
 
 def _relax(
     packing: Packing, interaction: Interaction, force_ratio: float, max_steps: int
-) -> Relaxed:
+) -> RelaxationResult:
     """Damped dynamics until max|F̃| is the part `force_ratio` of the mean contact force."""
     force = mean_contact_force(find_contacts(packing), interaction)
     damping = Dashpot(VISCOSITY)

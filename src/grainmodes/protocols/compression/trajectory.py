@@ -21,13 +21,13 @@ from grainmodes.packing.state import Packing
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import phi_at_step
 from grainmodes.relaxation.frictionless import (
-    FLOPPY_FORCE,
-    relax_fast,
+    UNJAMMED_FORCE,
+    is_unjammed,
     relax_fire,
-    relax_loosely,
-    unjammed,
+    relax_fire_large_steps,
+    relax_fire_newton,
 )
-from grainmodes.relaxation.result import Relaxed
+from grainmodes.relaxation.result import RelaxationResult
 
 SIZE_RATIO = 1.4
 """Diameter of the large grains over that of the small ones; half of the grains are large
@@ -75,7 +75,7 @@ def place_at_random(n: int, seed: int, normal: NormalLaw, compression: Compressi
     points = points[:, _order_along_rows(points)]
     mass = diameter**2 if compression.masses == "area" else np.ones(n)
     overlapping = Packing(points, diameter, mass, 1.0).at(compression.initial_phi)
-    relaxed = relax_loosely(overlapping, normal, 1e-300, 0.0, compression.max_iterations)
+    relaxed = relax_fire_large_steps(overlapping, normal, 1e-300, 0.0, compression.max_iterations)
     if relaxed.max_force > 0.0:
         raise CompressionError(f"random placement of {n} grains kept overlaps")
     return Trajectory(relaxed.packing, 0, compression.initial_phi, relaxed.iterations)
@@ -113,19 +113,19 @@ def _compress_one_step(
         relaxed = relax_fire(packing, normal, compression.force_tolerance, most)
     else:
         balance = compression.intermediate_balance
-        relaxed = relax_loosely(packing, normal, FLOPPY_FORCE, balance, most)
+        relaxed = relax_fire_large_steps(packing, normal, UNJAMMED_FORCE, balance, most)
     if relaxed.iterations >= most:
         raise CompressionError(
             f"phi = {phi}: max|F| = {relaxed.max_force:.1e} after {relaxed.iterations} iterations"
         )
-    phi_jamming = phi if unjammed(relaxed.packing, normal) else before.phi_jamming
+    phi_jamming = phi if is_unjammed(relaxed.packing, normal) else before.phi_jamming
     iterations = before.iterations + relaxed.iterations
     return Trajectory(relaxed.packing, before.step + 1, phi_jamming, iterations)
 
 
 def compress_to(
     start: Trajectory, phi: float, normal: NormalLaw, compression: Compression
-) -> Relaxed:
+) -> RelaxationResult:
     """The packing at φ in its final balance, max|F| < F_Th, on a branch from the grid.
 
     Its `iterations` count all iterations since the random placement.
@@ -134,7 +134,7 @@ def compress_to(
         CompressionError: a step along the grid did not reach its balance.
     """
     grid = compress_along_grid(start, phi, normal, compression)
-    relax = relax_fire if compression.relaxation == "fire" else relax_fast
+    relax = relax_fire if compression.relaxation == "fire" else relax_fire_newton
     packing = grid.packing.at(phi)
     final = relax(packing, normal, compression.force_tolerance, compression.max_iterations)
     return replace(final, iterations=grid.iterations + final.iterations)

@@ -31,7 +31,7 @@ from grainmodes.protocols.shear.coulomb_threshold import (
     slipping_contacts,
 )
 from grainmodes.protocols.shear.strain_step import first_balance, step_to
-from grainmodes.relaxation.balance import Balance
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 STATES = 20
 """States along the way at which pairs are counted."""
@@ -53,7 +53,7 @@ class Seen(NamedTuple):
     growth: float
 
     @classmethod
-    def of(cls, balance: Balance) -> Seen:
+    def of(cls, balance: EquilibriumState) -> Seen:
         """Count the pairs of a state, and release it where there is one."""
         packing, contacts, interaction = (
             balance.backbone,

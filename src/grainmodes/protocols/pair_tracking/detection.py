@@ -21,7 +21,7 @@ from grainmodes.complex_pairs.matching import Planes
 from grainmodes.complex_pairs.plane import plane_of
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
 from grainmodes.protocols.pair_tracking.exceptional_points import Side
-from grainmodes.relaxation.balance import Balance
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 
 class Detector(Protocol):
@@ -70,7 +70,7 @@ DETECTORS: dict[str, type[Detector]] = {
 class Seen:
     """A state with its pairs, their vectors on all grains."""
 
-    balance: Balance
+    balance: EquilibriumState
     pairs: Pairs
 
     @cached_property
@@ -90,7 +90,7 @@ class Seen:
 
     def side(self, place: int) -> Side:
         """The state with the plane of one of its pairs."""
-        held = np.repeat(self.balance.held, 3)
+        held = np.repeat(self.balance.backbone_mask, 3)
         right, left = (
             np.stack([of[held, place].real, of[held, place].imag], axis=1)
             for of in (self.pairs.right, self.pairs.left)
@@ -99,10 +99,10 @@ class Seen:
         return Side(self.balance, plane_of(matrix, right, left))
 
 
-def seen_by(detector: Detector, balance: Balance) -> Seen:
+def seen_by(detector: Detector, balance: EquilibriumState) -> Seen:
     """A state with the pairs that a detector finds in it."""
     mass = balance.backbone.mass
     matrix = mass_weighted_jacobian(balance.matrix, mass)
-    found = detector.find(Loaded(matrix, translations(mass), balance.held))
-    right, left = (on_all_grains(of, balance.held) for of in (found.right, found.left))
+    found = detector.find(Loaded(matrix, translations(mass), balance.backbone_mask))
+    right, left = (on_all_grains(of, balance.backbone_mask) for of in (found.right, found.left))
     return Seen(balance, Pairs(found.value, right, left))

@@ -32,7 +32,7 @@ from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.events import count_network_changes
 from grainmodes.protocols.shear.strain_step import step_to
-from grainmodes.relaxation.balance import Balance
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 NEVER, COALESCENCE, CONTACT_CHANGE, JUMP, LOST, UNDECIDED = range(6)
 """What a birth or a death is; `NEVER`: still alive; `UNDECIDED`: contacts changed in its step."""
@@ -47,7 +47,7 @@ TURNED = 0.7
 class Side(NamedTuple):
     """A state next to γ_c and the plane of the two modes in it."""
 
-    balance: Balance
+    balance: EquilibriumState
     plane: Plane
 
     @property
@@ -95,7 +95,9 @@ class ExceptionalPoint(NamedTuple):
         return fitted(*np.array(at).reshape(-1, 2).T)
 
 
-def located(pair: Side, other: Balance, choices: Shear, bracket: float) -> ExceptionalPoint:
+def located(
+    pair: Side, other: EquilibriumState, choices: Shear, bracket: float
+) -> ExceptionalPoint:
     """The exceptional point between a state in which the pair is there and one in which it is not.
 
     Raises:
@@ -113,9 +115,9 @@ def located(pair: Side, other: Balance, choices: Shear, bracket: float) -> Excep
     return _judged(pair, other, jumped, choices)
 
 
-def followed(start: Side, balance: Balance) -> Side | None:
+def followed(start: Side, balance: EquilibriumState) -> Side | None:
     """The plane of a state in a later or earlier one; None where it is lost."""
-    if not np.array_equal(start.balance.held, balance.held):
+    if not np.array_equal(start.balance.backbone_mask, balance.backbone_mask):
         return None
     try:
         plane = plane_near(
@@ -127,7 +129,7 @@ def followed(start: Side, balance: Balance) -> Side | None:
     return Side(balance, plane) if same else None
 
 
-def _judged(pair: Side, other: Balance, jumped: bool, choices: Shear) -> ExceptionalPoint:
+def _judged(pair: Side, other: EquilibriumState, jumped: bool, choices: Shear) -> ExceptionalPoint:
     """What happened between the two ends of a bracket, the upper one reached by a jump or not."""
     ends = sorted((pair.strain, other.packing.strain))
     if jumped:

@@ -30,7 +30,7 @@ import numpy as np
 from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.release import GROWTH_RANGE
 from grainmodes.protocols.pair_tracking.detection import Seen
-from grainmodes.relaxation.balance import Balance
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 FARTHEST = 0.1
 """Largest gap of a near miss, in d. The two at a wider one never meet below M = 1e-11 d² in less
@@ -61,9 +61,9 @@ def fastest_with_room(state: Seen, slower: float) -> Chosen | None:
     return Chosen(float(growth[place]), state, place, float(room[best]))
 
 
-def rooms(balance: Balance, motions: np.ndarray) -> np.ndarray:
+def rooms(balance: EquilibriumState, motions: np.ndarray) -> np.ndarray:
     """M of the first change of contacts along every mode, (P,)."""
-    packing, held = balance.packing, balance.held
+    packing, held = balance.packing, balance.backbone_mask
     larger = replace(packing, diameter=packing.diameter + FARTHEST, history=None)
     near = find_contacts(larger)
     loaded = held[near.i] & held[near.j]

@@ -15,7 +15,7 @@ import scipy.linalg
 
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.protocols.pair_tracking.exceptional_points import Side, followed
-from grainmodes.relaxation.balance import Balance
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 FEW = 60
 """Degrees of freedom up to which all scalar products are told."""
@@ -29,7 +29,7 @@ class Products(NamedTuple):
     product: np.ndarray
 
 
-def path_of(pair: Side, states: list[Balance], around: int) -> list[Side]:
+def path_of(pair: Side, states: list[EquilibriumState], around: int) -> list[Side]:
     """The plane of a pair in the states of a walk, γ ascending."""
     earlier = [state for state in states if state.packing.strain < pair.strain]
     later = [state for state in states if state.packing.strain > pair.strain]
@@ -37,7 +37,7 @@ def path_of(pair: Side, states: list[Balance], around: int) -> list[Side]:
     return [*before[::-1], pair, *after]
 
 
-def _onwards(pair: Side, states: Iterable[Balance], around: int) -> Iterator[Side]:
+def _onwards(pair: Side, states: Iterable[EquilibriumState], around: int) -> Iterator[Side]:
     now, real = pair, 0
     for state in states:
         now = followed(now, state)
@@ -49,7 +49,7 @@ def _onwards(pair: Side, states: Iterable[Balance], around: int) -> Iterator[Sid
             return
 
 
-def products_along(pair: Side, states: list[Balance]) -> list[Products]:
+def products_along(pair: Side, states: list[EquilibriumState]) -> list[Products]:
     """C's scalar products of one mode with all others in every state with as many grains.
 
     The mode is that of a pair, by its number in the state where the pair was found.
@@ -58,16 +58,16 @@ def products_along(pair: Side, states: list[Balance]) -> list[Products]:
         return []
     values, _ = _modes(pair.balance)
     mode = int(np.argmin(np.abs(values - pair.plane.values[0].conj())))
-    held = pair.balance.held
-    return [_products(state, mode) for state in states if np.array_equal(state.held, held)]
+    held = pair.balance.backbone_mask
+    return [_products(state, mode) for state in states if np.array_equal(state.backbone_mask, held)]
 
 
-def _products(state: Balance, mode: int) -> Products:
+def _products(state: EquilibriumState, mode: int) -> Products:
     _, vectors = _modes(state)
     return Products(state.packing.strain, mode, np.abs(vectors[:, mode] @ vectors))
 
 
-def _modes(state: Balance) -> tuple[np.ndarray, np.ndarray]:
+def _modes(state: EquilibriumState) -> tuple[np.ndarray, np.ndarray]:
     """All eigenvalues of K, λ_r ascending, with eigenvectors of norm 1."""
     matrix = mass_weighted_jacobian(state.matrix, state.backbone.mass)
     values, vectors = scipy.linalg.eig(matrix.toarray())

@@ -40,7 +40,7 @@ from grainmodes.protocols.pair_tracking.exceptional_points import (
 from grainmodes.protocols.pair_tracking.linear_range import Chosen, fastest_with_room
 from grainmodes.protocols.shear.events import count_network_changes
 from grainmodes.protocols.shear.strain_step import first_balance, step_to
-from grainmodes.relaxation.balance import Balance
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 
 @dataclass
@@ -93,7 +93,7 @@ class PairWalk:
     lives: list[Life] = field(default_factory=list)
     alive: list[int] = field(default_factory=list)
     located: list[Located] = field(default_factory=list)
-    states: list[Balance] = field(default_factory=list)
+    states: list[EquilibriumState] = field(default_factory=list)
     unstable: Chosen | None = None
 
     @classmethod
@@ -147,7 +147,9 @@ class PairWalk:
                 self._locate(heirs[new], self.now, new, before.balance, jumped)
         self.alive = [heirs[new] for new in range(len(self.now.pairs.value))]
 
-    def _locate(self, life: int, seen: Seen, place: int, other: Balance, jumped: bool) -> None:
+    def _locate(
+        self, life: int, seen: Seen, place: int, other: EquilibriumState, jumped: bool
+    ) -> None:
         """Look at a birth or death closely, if it is one of the first."""
         born = other.packing.strain < seen.strain
         known = sum(one.born == born for one in self.located)
@@ -168,7 +170,7 @@ class PairWalk:
 
     def _count(self) -> None:
         """Record the state."""
-        self.states.append(self.now.balance.bare())
+        self.states.append(self.now.balance.without_factors())
         pairs = self.now.pairs
         growth = pairs.growth
         for life, rate in zip(self.alive, growth.tolist(), strict=True):
@@ -186,7 +188,7 @@ class PairWalk:
         of_jacobian, balance = np.nan, self.now.balance
         if self.of_jacobian:
             null = translations(np.ones(balance.backbone.n))
-            loaded = Loaded(balance.matrix.tocsr(), null, balance.held)
+            loaded = Loaded(balance.matrix.tocsr(), null, balance.backbone_mask)
             of_jacobian = len(self.of_jacobian.find(loaded).value)
         pairs, dense = len(self.now.pairs.value), self.detector.dense
         return Count(self.now.strain, pairs, of_jacobian, fastest, condition, dense)

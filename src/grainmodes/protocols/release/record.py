@@ -19,8 +19,8 @@ from grainmodes.packing.contacts import Contacts, rattlers
 from grainmodes.packing.forces import forces_on_i, sliding, stress
 from grainmodes.packing.mass_weighted import generalized_mass
 from grainmodes.packing.state import Packing, find_contacts, nonaffine_motion
-from grainmodes.relaxation.balance import most_loose
 from grainmodes.relaxation.dynamics import Motion
+from grainmodes.relaxation.equilibrium_state import rattler_threshold
 
 
 class MotionRecord(NamedTuple):
@@ -79,7 +79,7 @@ def count_changed_contacts(
 
     Rattlers do not count: a rattler may begin to touch at any time, and bears no load.
     """
-    held = ~rattlers(before, n, most_loose(interaction))
+    held = ~rattlers(before, n, rattler_threshold(interaction))
     keys = (
         found.i.astype(np.int64) << 32 | found.j
         for found in (contacts.among(held), before.among(held))

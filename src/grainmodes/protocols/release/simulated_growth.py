@@ -20,7 +20,7 @@ from grainmodes.packing.mass_weighted import generalized_mass
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.protocols.shear.coulomb_threshold import SLIPPING, FastestPair, fastest_mode
 from grainmodes.relaxation.dynamics import Motion, move
-from grainmodes.relaxation.newton import moved_by, slipped
+from grainmodes.relaxation.newton import apply_slip, displace_with_springs
 
 AMPLITUDE = 1e-11
 """a in d: 1e3 times what a balance of max|F̃| = 1e-14 leaves over in other modes."""
@@ -62,7 +62,9 @@ def _on_growing_solution(packing: Packing, interaction: Interaction, pair: Faste
     contacts = find_contacts(packing)
     u = AMPLITUDE * fastest_mode(packing, contacts, interaction, SLIPPING)
     velocity = (-1j * np.sqrt(complex(pair.eigenvalue)) * u).real
-    start, _ = slipped(moved_by(packing, contacts, interaction, u.real), interaction)
+    start, _ = apply_slip(
+        displace_with_springs(packing, contacts, interaction, u.real), interaction
+    )
     return Motion(start, velocity, 0, math.inf)
 
 

@@ -89,12 +89,12 @@ def lowest_mode_of(state: ShearedState) -> tuple[LowestMode, np.ndarray]:
     balance = state.balance
     mode = lowest_mode(balance.matrix, balance.factor, balance.force.shape[1])
     vector = mode.vector.reshape(len(balance.force), -1)
-    return mode, on_all_grains(vector, ~balance.held)
+    return mode, on_all_grains(vector, ~balance.backbone_mask)
 
 
 def nonaffine_rate(state: ShearedState) -> np.ndarray:
     """dq̊/dγ by linear response, (N, 3) in d, NaN on rattlers: B (41)."""
-    return on_all_grains(state.response.displacement, ~state.balance.held)
+    return on_all_grains(state.response.displacement, ~state.balance.backbone_mask)
 
 
 def simulated_nonaffine_rate(state: ShearedState, choices: Shear) -> np.ndarray:
@@ -104,7 +104,7 @@ def simulated_nonaffine_rate(state: ShearedState, choices: Shear) -> np.ndarray:
         ArithmeticError: no balance was found after the step.
     """
     after = _state_at(state.strain + RATE_STEP, state, choices)
-    held = state.balance.held
+    held = state.balance.backbone_mask
     motion = nonaffine_motion(state.balance.packing, after.balance.packing)[held] / RATE_STEP
     motion[:, :2] -= motion[:, :2].mean(axis=0)
     return on_all_grains(motion, ~held)

@@ -21,7 +21,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.springs import advance_by_slide
 from grainmodes.packing.state import Packing, find_contacts, nonaffine_motion
 from grainmodes.protocols.shear.sheared_state import CurvePoint, ShearedState
-from grainmodes.relaxation.balance import Balance
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 MIN_RIGIDITY_DROP = 1e-2
 """Fall of g, in k_N, above which a step is plastic: B, Sec. IV (ii)."""
@@ -74,9 +74,9 @@ def event_kind(before: ShearedState, after: ShearedState) -> int:
     return STRESS_DROP * stress_fell + RIGIDITY_DROP * rigidity_fell
 
 
-def count_network_changes(before: Balance, after: Balance) -> tuple[int, int]:
+def count_network_changes(before: EquilibriumState, after: EquilibriumState) -> tuple[int, int]:
     """Numbers of contacts between grains that carry load which have opened and have closed."""
-    old, new = before.network, after.network
+    old, new = before.contact_keys, after.contact_keys
     if np.array_equal(old, new):
         return 0, 0
     common = len(np.intersect1d(old, new, assume_unique=True))

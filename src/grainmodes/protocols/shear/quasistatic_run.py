@@ -80,7 +80,7 @@ class QuasistaticRun:
     @property
     def restartable(self) -> bool:
         """Whether the state alone, without factors of earlier states, leads to the same bytes."""
-        return self.state.balance.handed_on.age == 1
+        return self.state.balance.factors_for_next.age == 1
 
     @property
     def _last_units(self) -> int:

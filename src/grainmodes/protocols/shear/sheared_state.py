@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from grainmodes.packing.forces import energy, stress
-from grainmodes.relaxation.balance import Balance
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.response.moduli import AffineStep, Moduli
 from grainmodes.response.stability import lowest_eigenvalue
 
@@ -43,7 +43,7 @@ class ShearedState:
     (N', k) in d, from which the iteration for its own field starts.
     """
 
-    balance: Balance
+    balance: EquilibriumState
     strain_units: int
     loaded: bool
     jumped: bool = False
@@ -71,7 +71,7 @@ class ShearedState:
         step = AffineStep(
             balance.backbone, balance.backbone_contacts, balance.interaction, self.loaded
         )
-        return step.moduli(balance.solved(step.force, self.response_guess))
+        return step.moduli(balance.solve(step.force, self.response_guess))
 
     @cached_property
     def modulus(self) -> np.ndarray:
@@ -97,7 +97,7 @@ class ShearedState:
     def curve_point(self, with_lowest: bool) -> CurvePoint:
         """This state in numbers, on request with the lowest eigenvalue of J."""
         balance = self.balance
-        grains = int(balance.held.sum())
+        grains = int(balance.backbone_mask.sum())
         return CurvePoint(
             self.strain,
             self.stress,

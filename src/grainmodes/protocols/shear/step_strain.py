@@ -26,7 +26,7 @@ from grainmodes.packing.state import Packing, backbone, find_contacts
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.newton import newton
-from grainmodes.relaxation.result import Relaxed
+from grainmodes.relaxation.result import RelaxationResult
 
 MAX_NEWTON_ITERATIONS = 40
 """Contacts that open or close near zero overlap make Newton's method linear, ξ → ξ/3 a step."""
@@ -127,7 +127,7 @@ def _central_difference(
 
 def relaxed_steps(
     packing: Packing, interaction: Interaction, protocol: StepStrain
-) -> tuple[Relaxed, Relaxed]:
+) -> tuple[RelaxationResult, RelaxationResult]:
     """A packing without rattlers after the steps Δγ and −Δγ, each relaxed.
 
     Raises:
@@ -140,7 +140,7 @@ def relaxed_steps(
     return forward, backward
 
 
-def _relax(packing: Packing, interaction: Interaction, protocol: StepStrain) -> Relaxed:
+def _relax(packing: Packing, interaction: Interaction, protocol: StepStrain) -> RelaxationResult:
     if protocol.relaxation == "newton":
         return newton(packing, interaction, protocol.force_tolerance, MAX_NEWTON_ITERATIONS)
     if is_frictionless(interaction):

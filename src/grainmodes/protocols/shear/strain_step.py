@@ -30,11 +30,11 @@ from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import is_frictionless, mean_contact_force
 from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.strain import Shear
-from grainmodes.relaxation.balance import Balance
 from grainmodes.relaxation.dynamics import relax_damped
-from grainmodes.relaxation.following import find_balance
-from grainmodes.relaxation.frictionless import relax_fast
-from grainmodes.relaxation.result import Relaxed
+from grainmodes.relaxation.equilibrium_search import find_equilibrium
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
+from grainmodes.relaxation.frictionless import relax_fire_newton
+from grainmodes.relaxation.result import RelaxationResult
 
 HANDOVER_FORCE_RATIO = 1e-4
 """max|F̃|, relative to the mean contact force, at which Newton's method takes over from the
@@ -44,19 +44,21 @@ HANDOVER_REDUCTION = 0.1
 """Factor by which the handover force is lowered where Newton's method leaves the basin."""
 
 
-def first_balance(packing: Packing, interaction: Interaction, choices: Shear) -> Balance:
+def first_balance(packing: Packing, interaction: Interaction, choices: Shear) -> EquilibriumState:
     """The stable balance of a packing that is in balance already, or nearly.
 
     Raises:
         ArithmeticError: there is no stable balance nearby.
     """
-    found = find_balance(packing, interaction, choices.force_tolerance)
+    found = find_equilibrium(packing, interaction, choices.force_tolerance)
     if found is None or found.unstable:
         raise ArithmeticError(f"no stable balance near the packing at strain {packing.strain}")
     return found
 
 
-def step_to(strain: float, before: Balance, choices: Shear) -> tuple[Balance, bool]:
+def step_to(
+    strain: float, before: EquilibriumState, choices: Shear
+) -> tuple[EquilibriumState, bool]:
     """The balance at another strain, and whether the dynamics had to find it.
 
     Raises:
@@ -66,13 +68,15 @@ def step_to(strain: float, before: Balance, choices: Shear) -> tuple[Balance, bo
     affine = strained_affinely(before, strain, choices.loaded)
     if choices.relaxation == "newton":
         tolerance = choices.force_tolerance
-        found = find_balance(affine, before.interaction, tolerance, before, most_lost=tolerance)
+        found = find_equilibrium(
+            affine, before.interaction, tolerance, before, max_released_force=tolerance
+        )
         if found is not None and not found.unstable:
             return found, False
     return _balance_by_dynamics(affine, before, choices), True
 
 
-def strained_affinely(before: Balance, strain: float, loaded: bool) -> Packing:
+def strained_affinely(before: EquilibriumState, strain: float, loaded: bool) -> Packing:
     """The packing of a balance at another strain, before it relaxes.
 
     If `loaded`, the affine motion also stretches the tangential springs.
@@ -94,7 +98,9 @@ def strained_affinely(before: Balance, strain: float, loaded: bool) -> Packing:
     return replace(sheared, history=History(contacts.i, contacts.j, s))
 
 
-def _balance_by_dynamics(packing: Packing, before: Balance, choices: Shear) -> Balance:
+def _balance_by_dynamics(
+    packing: Packing, before: EquilibriumState, choices: Shear
+) -> EquilibriumState:
     """Dynamics into the basin of a balance, then Newton's method to the balance.
 
     Where Newton's method fails, the dynamics goes on to ever smaller forces, in the end to F_Th.
@@ -108,8 +114,8 @@ def _balance_by_dynamics(packing: Packing, before: Balance, choices: Shear) -> B
     while steps_left > 0:
         relaxed = _run_dynamics(packing, interaction, tolerance, choices, steps_left)
         is_last = tolerance <= target
-        most_lost = np.inf if is_last else target
-        found = find_balance(relaxed.packing, interaction, target, before, most_lost)
+        max_released_force = np.inf if is_last else target
+        found = find_equilibrium(relaxed.packing, interaction, target, before, max_released_force)
         if found is not None and not found.unstable:
             return found
         if is_last:
@@ -124,9 +130,9 @@ def _balance_by_dynamics(packing: Packing, before: Balance, choices: Shear) -> B
 
 def _run_dynamics(
     packing: Packing, interaction: Interaction, tolerance: float, choices: Shear, max_steps: int
-) -> Relaxed:
+) -> RelaxationResult:
     """Relax until max|F̃| < `tolerance`: by B's damped dynamics, without friction by FIRE."""
     if is_frictionless(interaction):
-        return relax_fast(packing, interaction.normal, tolerance, max_steps)
+        return relax_fire_newton(packing, interaction.normal, tolerance, max_steps)
     damping = Drag(choices.drag)
     return relax_damped(packing, interaction, damping, choices.time_step, tolerance, max_steps)

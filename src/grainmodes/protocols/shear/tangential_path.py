@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from grainmodes.packing.contacts import Contacts
-from grainmodes.relaxation.balance import Balance
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 
 class PathError(NamedTuple):
@@ -50,13 +50,13 @@ class PathError(NamedTuple):
 class TangentialPath:
     """V of every contact along a shear, (C, 2) in d; it starts as s t of the first balance."""
 
-    def __init__(self, balance: Balance):
+    def __init__(self, balance: EquilibriumState):
         contacts = balance.contacts
         self._keys, self._contacts = _contact_keys(balance), contacts
         self._path = contacts.displacement[:, None] * contacts.tangent
         self._first_normal = contacts.normal
 
-    def follow(self, balance: Balance) -> PathError:
+    def follow(self, balance: EquilibriumState) -> PathError:
         """Go on to the next state; a contact that has closed begins with V = 0."""
         contacts, keys = balance.contacts, _contact_keys(balance)
         _, new, old = np.intersect1d(keys, self._keys, assume_unique=True, return_indices=True)
@@ -102,7 +102,7 @@ def _largest_and_median(values: np.ndarray) -> tuple[float, float]:
     return (float(values.max()), float(np.median(values))) if len(values) else (np.nan, np.nan)
 
 
-def _contact_keys(balance: Balance) -> np.ndarray:
+def _contact_keys(balance: EquilibriumState) -> np.ndarray:
     """One number for every contact, ascending, (C,) int64."""
     contacts = balance.contacts
     return contacts.i.astype(np.int64) * balance.packing.n + contacts.j

@@ -10,19 +10,19 @@ from grainmodes.parameters.release import GROWTH_RANGE, Release
 from grainmodes.protocols.pair_tracking.detection import ByLapack, Seen, seen_by
 from grainmodes.protocols.pair_tracking.linear_range import fastest_with_room, rooms
 from grainmodes.protocols.release.outcome import release_outcome
-from grainmodes.relaxation.balance import Balance
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from released import released, state
 
 TURN = np.exp(-2j * np.pi * np.arange(60) / 60)
 """Phases of a turn."""
 
 
-def balance() -> Balance:
+def balance() -> EquilibriumState:
     start, _, interaction = state()
-    return Balance.of(start.packing, interaction)
+    return EquilibriumState.from_packing(start.packing, interaction)
 
 
-def motions(equilibrium: Balance) -> np.ndarray:
+def motions(equilibrium: EquilibriumState) -> np.ndarray:
     """The unstable mode of the state, and some at random."""
     draws = np.random.default_rng(5).standard_normal((7, 2, equilibrium.packing.n, 3))
     return np.stack([state()[0].mode, *(draws[:, 0] + 1j * draws[:, 1])], axis=2)
@@ -56,7 +56,7 @@ def test_the_room_is_where_contacts_change_on_the_way(opens):
     assert {opened for _, opened in found} == {opens}
 
 
-def nearly_closed(equilibrium: Balance) -> Balance:
+def nearly_closed(equilibrium: EquilibriumState) -> EquilibriumState:
     """The narrowest gap left with 1e-6 d by a grain that is made larger."""
     i, j = np.tril_indices(equilibrium.packing.n, -1)
     away = equilibrium.packing.position[i] - equilibrium.packing.position[j]
@@ -70,7 +70,9 @@ def nearly_closed(equilibrium: Balance) -> Balance:
     gap[gap < 0.0] = np.inf
     diameter = equilibrium.packing.diameter.copy()
     diameter[i[np.argmin(gap)]] += 2.0 * (gap.min() - 1e-6)
-    return Balance.of(replace(equilibrium.packing, diameter=diameter), equilibrium.interaction)
+    return EquilibriumState.from_packing(
+        replace(equilibrium.packing, diameter=diameter), equilibrium.interaction
+    )
 
 
 def test_the_room_is_one_of_a_direction_and_not_of_a_vector():
@@ -89,20 +91,22 @@ def test_a_loose_grain_takes_no_room():
     held = np.arange(equilibrium.packing.n) != grain
     shrunk = narrowed(equilibrium)
     assert rooms(shrunk, motions(equilibrium)).max() < 1e-15
-    assert rooms(replace(shrunk, held=held), motions(equilibrium)).min() > 1e-12
+    assert rooms(replace(shrunk, backbone_mask=held), motions(equilibrium)).min() > 1e-12
 
 
-def narrowed(equilibrium: Balance) -> Balance:
+def narrowed(equilibrium: EquilibriumState) -> EquilibriumState:
     """The weakest contact left with an overlap of 1e-9 d by a grain that is made smaller."""
     weakest = np.argmin(equilibrium.contacts.overlap)
     diameter = equilibrium.packing.diameter.copy()
     diameter[equilibrium.contacts.i[weakest]] -= 2.0 * (
         equilibrium.contacts.overlap[weakest] - 1e-9
     )
-    return Balance.of(replace(equilibrium.packing, diameter=diameter), equilibrium.interaction)
+    return EquilibriumState.from_packing(
+        replace(equilibrium.packing, diameter=diameter), equilibrium.interaction
+    )
 
 
-def seen(equilibrium: Balance) -> Seen:
+def seen(equilibrium: EquilibriumState) -> Seen:
     return seen_by(ByLapack(), equilibrium)
 
 

@@ -19,8 +19,12 @@ from grainmodes.packing.state import find_contacts, nonaffine_motion
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.strain_step import first_balance, step_to
-from grainmodes.relaxation.balance import OLDEST, Balance, lost_force
-from grainmodes.relaxation.following import find_balance
+from grainmodes.relaxation.equilibrium_search import find_equilibrium
+from grainmodes.relaxation.equilibrium_state import (
+    MAX_REUSES,
+    EquilibriumState,
+    force_released_on_opening,
+)
 from grainmodes.response.stability import lowest_eigenvalue
 
 B = Interaction.from_law(ContactLaw("harmonic", "elastic", 1.0))
@@ -29,19 +33,19 @@ WEAK = Interaction.from_law(ContactLaw("harmonic", "elastic", 0.1))
 PACKING = "harmonic_n64_phi0.900_seed1"
 
 
-def slipping(seed: int, slip: float, squeezed: float = 0.9) -> Balance:
+def slipping(seed: int, slip: float, squeezed: float = 0.9) -> EquilibriumState:
     """A packing squeezed and shaken, its springs stretched at random: no balance."""
     draws, packing = np.random.default_rng(seed), reference(MINIMAL[1])[1].at(squeezed)
     shaken = packing.displaced(draws.normal(0.0, 0.1 * (squeezed - 0.9), (packing.n, 2)))
-    return Balance.of(with_slip(shaken, draws, slip), WEAK)
+    return EquilibriumState.from_packing(with_slip(shaken, draws, slip), WEAK)
 
 
-def sheared(steps: int, size: float = 1e-4, interaction=B, name: str = PACKING) -> Balance:
+def sheared(steps: int, size: float = 1e-4, interaction=B, name: str = PACKING) -> EquilibriumState:
     """A balance some steps of strain away from where friction was switched on."""
-    now = find_balance(reference(name)[1], interaction, 1e-14)
+    now = find_equilibrium(reference(name)[1], interaction, 1e-14)
     for _ in range(steps):
         strain = now.packing.strain + size
-        now = find_balance(now.packing.sheared(strain), interaction, 1e-14, now)
+        now = find_equilibrium(now.packing.sheared(strain), interaction, 1e-14, now)
     return now
 
 
@@ -52,7 +56,7 @@ def test_a_balance_is_one_and_its_loose_grains_touch_nothing(law):
     contacts = find_contacts(now.packing)
     assert max(largest(net_force(now.packing, contacts, interaction))) < 1e-14
     loose = rattlers(contacts, now.packing.n, 1 if law.frictional else 2)
-    np.testing.assert_array_equal(now.held, ~loose)
+    np.testing.assert_array_equal(now.backbone_mask, ~loose)
     assert not np.any(loose[contacts.i] | loose[contacts.j])
 
 
@@ -72,7 +76,7 @@ def test_a_loose_grain_pushed_against_the_others_is_let_go():
     push[loose] = apart[nearest] / np.hypot(*apart[nearest]) * (gap[nearest] + 1e-4)
     pushed = packing.displaced(push)
     assert loose in np.concatenate([find_contacts(pushed).i, find_contacts(pushed).j])
-    found = find_balance(pushed, interaction, 1e-14)
+    found = find_equilibrium(pushed, interaction, 1e-14)
     contacts = find_contacts(found.packing)
     assert loose not in np.concatenate([contacts.i, contacts.j])
     moved = nonaffine_motion(packing, found.packing)
@@ -81,24 +85,28 @@ def test_a_loose_grain_pushed_against_the_others_is_let_go():
 
 def test_factors_are_handed_on_and_solve_as_well_as_new_ones():
     now = sheared(4, size=1e-6)
-    assert now.inherited is not None
+    assert now.reused is not None
     force = np.random.default_rng(0).standard_normal(now.force.shape)
     force -= force.mean(axis=0) * [1.0, 1.0, 0.0]
-    u, fresh = now.solved(force), replace(now, inherited=None).solved(force)
+    u, fresh = now.solve(force), replace(now, reused=None).solve(force)
     np.testing.assert_allclose(u, fresh, rtol=1e-9, atol=1e-11 * np.abs(fresh).max())
 
 
 def test_factors_grow_old():
-    ages = [sheared(steps, size=1e-7).handed_on.age for steps in (1, OLDEST - 1, OLDEST)]
-    assert ages == [2, OLDEST, 1]
+    ages = [
+        sheared(steps, size=1e-7).factors_for_next.age for steps in (1, MAX_REUSES - 1, MAX_REUSES)
+    ]
+    assert ages == [2, MAX_REUSES, 1]
 
 
 def test_factors_of_another_matrix_are_not_believed():
     near, far = sheared(1, size=1e-6), sheared(40, size=1e-3)
-    mixed = replace(far, inherited=near.handed_on)
+    mixed = replace(far, reused=near.factors_for_next)
     force = np.ones(far.force.shape) - [1.0, 1.0, 0.0]
-    assert far.held.all() == near.held.all() is np.True_ or far.held.all()
-    np.testing.assert_allclose(mixed.solved(force), far.factor.solve(force), rtol=1e-8, atol=1e-9)
+    assert (
+        far.backbone_mask.all() == near.backbone_mask.all() is np.True_ or far.backbone_mask.all()
+    )
+    np.testing.assert_allclose(mixed.solve(force), far.factor.solve(force), rtol=1e-8, atol=1e-9)
 
 
 def test_a_contact_lost_under_load_is_noticed():
@@ -108,12 +116,12 @@ def test_a_contact_lost_under_load_is_noticed():
     apart = packing.at(0.5 * packing.phi)
     s = np.abs(contacts.displacement).max()
     for law, force in ((LAWS[3], 0.3 * s), (LAWS[0], 0.0), (LAWS[1], 0.0), (LAWS[5], 0.0)):
-        found = lost_force(apart, find_contacts(apart), Interaction.from_law(law))
+        found = force_released_on_opening(apart, find_contacts(apart), Interaction.from_law(law))
         assert found == pytest.approx(force, rel=1e-12, abs=1e-30), law
-    assert lost_force(packing, contacts, Interaction.from_law(LAWS[3])) == 0.0
+    assert force_released_on_opening(packing, contacts, Interaction.from_law(LAWS[3])) == 0.0
 
 
-def negative_eigenvalues(state: Balance) -> int:
+def negative_eigenvalues(state: EquilibriumState) -> int:
     """Of the dense J."""
     values = scipy.linalg.eigvals(state.matrix.toarray())
     return np.count_nonzero((values.real < -1e-9) & (np.abs(values.imag) < 1e-12))

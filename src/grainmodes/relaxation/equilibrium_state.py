@@ -1,0 +1,292 @@
+"""A packing, the backbone that carries its load, and its linear response.
+
+J changes little from one equilibrium state to the next. The factors of an earlier J₁, corrected for
+the contacts that have changed since (`low_rank_update`), still solve this J by iteration,
+
+    u → u + J₁⁻¹ (f − J u),
+
+as long as each iteration reduces the residual to a tenth. Then ‖1 − J₁⁻¹ J‖ < 1, so that no
+eigenvalue changes its sign between J₁ and J. Otherwise, and after `MAX_REUSES` states, J is
+factored anew.
+
+| symbol | name          | shape, type                                 | unit         |
+| ------ | ------------- | ------------------------------------------- | ------------ |
+| q      | packing       | all N grains, rattlers included             |              |
+| –      | backbone_mask | (N,) bool: grains that carry load           | 1            |
+| F̃      | force         | (N', k) float64, of the N' backbone grains  | k_N d^(3/2)  |
+| J      | matrix        | (kN', kN') sparse CSC                       | k_N d^(1/2)  |
+| u      | –             | (kN',) or (N', k) float64                   | d            |
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+import scipy.sparse as sparse
+from numpy.typing import NDArray
+
+from grainmodes.kernels.laws import Interaction
+from grainmodes.linalg.pinned_factor import PinnedFactor
+from grainmodes.packing.contacts import Contacts, rattlers
+from grainmodes.packing.forces import is_frictionless, largest, net_force, tangential_forces
+from grainmodes.packing.jacobian import assemble, stiffness_of
+from grainmodes.packing.state import Packing
+from grainmodes.relaxation.low_rank_update import BaseFactor, LowRankUpdate
+from grainmodes.relaxation.newton import apply_slip, displace_with_springs
+
+MAX_RESIDUAL_RATIO = 0.1
+"""Fraction of the residual that an iteration with reused factors may leave at most."""
+
+MAX_REUSES = 20
+"""Number of states that the factors of one J serve at most."""
+
+SOLUTION_TOLERANCE = 1e-12
+"""Relative residual of a solution by reused factors."""
+
+OPENING_OVERLAP = 1e-100
+"""Overlap, in d, of a contact at the moment when it opens: small, but not zero."""
+
+
+class ReusedFactor(NamedTuple):
+    """The factors of an earlier J, and how many states they have served."""
+
+    base: BaseFactor
+    age: int
+
+
+@dataclass(frozen=True)
+class EquilibriumState:
+    """A packing and what follows from it; in force balance once `find_equilibrium` returns it.
+
+    `released_force` is the largest force, in k_N d^(3/2), that a contact bore when it opened on the
+    way to this state (`force_released_on_opening`). `reuse_ordering_of` holds factors whose
+    elimination order may suit this J.
+    """
+
+    packing: Packing
+    contacts: Contacts
+    backbone_mask: NDArray[np.bool_]
+    interaction: Interaction
+    reused: ReusedFactor | None = None
+    reuse_ordering_of: PinnedFactor | None = None
+    released_force: float = 0.0
+
+    @classmethod
+    def from_packing(
+        cls,
+        packing: Packing,
+        interaction: Interaction,
+        before: EquilibriumState | None = None,
+    ) -> EquilibriumState:
+        """The state of a packing after its springs have slipped, as far as the law requires.
+
+        Args:
+            before: the state it comes from. Its factors are reused where the same grains carry
+                load, and its released force counts too.
+
+        Raises:
+            PackingError: two grains lie at the same place.
+        """
+        slipped, contacts = apply_slip(packing, interaction)
+        backbone_mask = ~rattlers(contacts, packing.n, rattler_threshold(interaction))
+        released = force_released_on_opening(packing, contacts, interaction)
+        state = cls(slipped, contacts, backbone_mask, interaction, released_force=released)
+        if before is None:
+            return state
+        released = max(released, before.released_force)
+        return state._reusing(before, before.reused, before.reuse_ordering_of, released)
+
+    def __reduce__(self):
+        """Pickle the packing alone: factors are made again, and are the same."""
+        return EquilibriumState.from_packing, (self.packing, self.interaction)
+
+    def without_factors(self) -> EquilibriumState:
+        """The same state without any factors, so that many states fit into memory."""
+        return replace(self, reused=None, reuse_ordering_of=None)
+
+    def with_factors_of(self, before: EquilibriumState) -> EquilibriumState:
+        """The same state with the factors of an earlier one, if the same grains carry load.
+
+        Raises:
+            FloppyError: the backbone of `before` has zero modes beyond the translations.
+        """
+        reused = before.factors_for_next
+        return self._reusing(before, reused, reused.base.factor, self.released_force)
+
+    def _reusing(
+        self,
+        before: EquilibriumState,
+        reused: ReusedFactor | None,
+        reuse_ordering_of: PinnedFactor | None,
+        released_force: float,
+    ) -> EquilibriumState:
+        same_grains = np.array_equal(self.backbone_mask, before.backbone_mask)
+        return replace(
+            self,
+            reused=reused if same_grains else None,
+            reuse_ordering_of=reuse_ordering_of,
+            released_force=released_force,
+        )
+
+    @cached_property
+    def backbone(self) -> Packing:
+        """The grains that carry load, renumbered, with their springs."""
+        if self.backbone_mask.all():
+            return self.packing
+        return self.packing.without(~self.backbone_mask)
+
+    @cached_property
+    def backbone_contacts(self) -> Contacts:
+        """The contacts between the grains of `backbone`, in its numbers."""
+        return self.contacts.among(self.backbone_mask)
+
+    @cached_property
+    def contact_keys(self) -> NDArray[np.int64]:
+        """One number for every contact of the backbone, ascending; i N + j in the packing."""
+        contacts = self.contacts
+        both = self.backbone_mask[contacts.i] & self.backbone_mask[contacts.j]
+        return (contacts.i.astype(np.int64) * self.packing.n + contacts.j)[both]
+
+    @cached_property
+    def force(self) -> NDArray[np.float64]:
+        """F̃ on every grain of the backbone, (N', k) in k_N d^(3/2)."""
+        return net_force(self.backbone, self.backbone_contacts, self.interaction)
+
+    @cached_property
+    def residual(self) -> float:
+        """max|F̃| over the forces and scaled torques of the backbone, in k_N d^(3/2)."""
+        return max(largest(self.force))
+
+    @cached_property
+    def stiffness(self) -> NDArray[np.float64]:
+        """K of the contacts of the backbone, (C, k, k) in k_N d^(1/2)."""
+        return stiffness_of(self.backbone_contacts, self.interaction)
+
+    @cached_property
+    def matrix(self) -> sparse.csc_array:
+        """J of the backbone, (kN', kN') in k_N d^(1/2)."""
+        contacts = self.backbone_contacts
+        return assemble(self.stiffness, contacts.i, contacts.j, self.backbone.n)
+
+    @cached_property
+    def factor(self) -> PinnedFactor:
+        """The factors of J.
+
+        Raises:
+            FloppyError: the backbone has zero modes beyond the translations.
+        """
+        symmetric = self.backbone_contacts.spring_state is None
+        return PinnedFactor(self.matrix, symmetric, reuse_ordering_of=self.reuse_ordering_of)
+
+    @cached_property
+    def low_rank_update(self) -> LowRankUpdate | None:
+        """The reused factors corrected for this J; None if there are none or too much changed."""
+        if self.reused is None:
+            return None
+        return self.reused.base.updated(self.backbone_contacts, lambda: self.stiffness)
+
+    @property
+    def base_factor(self) -> BaseFactor:
+        """The factors of this J, to be reused by later states.
+
+        Raises:
+            FloppyError: the backbone has zero modes beyond the translations.
+        """
+        return BaseFactor(self.factor, self.backbone_contacts, self.stiffness)
+
+    @property
+    def factors_for_next(self) -> ReusedFactor:
+        """The factors for the next state: the reused ones until they are too old.
+
+        Raises:
+            FloppyError: the backbone has zero modes beyond the translations.
+        """
+        if self.low_rank_update is None or self.reused.age >= MAX_REUSES:
+            return ReusedFactor(self.base_factor, 1)
+        return self.reused._replace(age=self.reused.age + 1)
+
+    @property
+    def unstable(self) -> bool:
+        """Whether J has eigenvalues of negative real part.
+
+        Raises:
+            FloppyError: the backbone has zero modes beyond the translations.
+        """
+        update = self.low_rank_update
+        if update is None or update.may_change_signs or self.reused.base.factor.unstable:
+            return self.factor.unstable
+        return False
+
+    def solve(
+        self, force: NDArray[np.float64], guess: NDArray[np.float64] | None = None
+    ) -> NDArray[np.float64]:
+        """u with J u = `force`, (kN',) in d.
+
+        Args:
+            force: kN' numbers in any shape.
+            guess: a field near u, from which the iteration with reused factors starts.
+
+        Raises:
+            FloppyError: the backbone has zero modes beyond the translations.
+        """
+        if self.low_rank_update is None:
+            return self.factor.solve(force)
+        wanted = force.ravel()
+        goal = SOLUTION_TOLERANCE * np.abs(wanted).max(initial=0.0)
+        u, residual = np.zeros(len(wanted)), wanted
+        if guess is not None and guess.size == len(wanted):
+            u = guess.ravel()
+            residual = wanted - self.matrix @ u
+        while (size := np.abs(residual).max(initial=0.0)) > goal:
+            u = u + self.low_rank_update.solve(residual)
+            residual = wanted - self.matrix @ u
+            if not np.abs(residual).max() < max(MAX_RESIDUAL_RATIO * size, goal):
+                return self.factor.solve(force)
+        return u
+
+    def displaced(self, u: NDArray[np.float64]) -> EquilibriumState:
+        """The state after a small displacement u of its backbone, (N', k) in d.
+
+        Raises:
+            PackingError: two grains then lie at the same place, or u is not finite.
+        """
+        everywhere = u
+        if not self.backbone_mask.all():
+            everywhere = np.zeros((self.packing.n, u.shape[1]))
+            everywhere[self.backbone_mask] = u
+        packing = displace_with_springs(self.packing, self.contacts, self.interaction, everywhere)
+        return EquilibriumState.from_packing(packing, self.interaction, self)
+
+
+def rattler_threshold(interaction: Interaction) -> int:
+    """Largest number of contacts of a grain that carries no load: 2, or 1 with friction.
+
+    With friction two contacts may hold a grain.
+    """
+    return 2 if is_frictionless(interaction) else 1
+
+
+def force_released_on_opening(
+    packing: Packing, contacts: Contacts, interaction: Interaction
+) -> float:
+    """Largest force, in k_N d^(3/2), that a contact of the history bore when it opened.
+
+    It is the tangential force at zero overlap. It is zero where the tangential force ends with the
+    normal one, for Hertzian contacts and under Coulomb's condition. A harmonic contact without slip
+    releases k_T s at once.
+
+    Args:
+        packing: with its history.
+        contacts: those of the history that are still closed; they may include new ones.
+    """
+    history = packing.history
+    if history is None or len(history.i) == len(contacts.i):
+        return 0.0
+    key = history.i.astype(np.int64) * packing.n + history.j
+    opened = ~np.isin(key, contacts.i.astype(np.int64) * packing.n + contacts.j, assume_unique=True)
+    s = history.spring_state[opened]
+    overlap = np.full(len(s), OPENING_OVERLAP)
+    return float(np.abs(tangential_forces(interaction, overlap, s)).max(initial=0.0))
