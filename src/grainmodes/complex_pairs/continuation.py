@@ -1,27 +1,18 @@
-"""The complex pairs of one J after the other, without solving any of them anew.
+"""Eigenbasis continuation: the complex pairs of one K after another along a shear.
 
-Eigenvectors change little from one state of a shear to the next. In those of the state before,
-columns V, the next K is nearly diagonal:
+The eigenvectors change little from one state of a shear to the next. In the eigenbasis V of the
+state before, the next K is nearly diagonal:
 
-    B = V⁻¹ K V = Λ + V⁻¹ (K V − V Λ)
+    B = V⁻¹ K V = diag(d) + E,   d_k = B_kk
 
-and `nearly_diagonal` gives its eigenvalues and the new vectors, V X. V is real: for a complex pair
-it holds Re u and Im u. It need not be exact, and all of a pass is in single precision. What matters
-is the distance from V to the eigenvectors, told by the coupling, and each pass takes it to its
-square. Every pair, and every two real eigenvalues that may be one, is then a plane with a residual
-in double precision (`couples`), and is sharpened until that is small (`sharpening`):
-
-| after a pass                                 | then                                              |
-| -------------------------------------------- | ------------------------------------------------- |
-| every plane has become sharp                 | the pairs are the planes with complex eigenvalues |
-| coupling above `ENOUGH`, a sum that is off,  | another pass from the new vectors, `MOST` at most |
-| too many planes in doubt, one stays blunt    |                                                   |
-| an eigenvalue is missing or there twice      | the same pass halfway, or a quarter of the way    |
-| and there as well                            | LAPACK                                            |
-
-Grains that come to carry load or cease to change the size of K. For one state it stands on the
-grains of both, the basis with a unit vector for every coordinate of a grain that came; the vectors
-that have gone to the grains that ceased are then left out.
+A *pass* solves B X = X Λ by second-order partitioning (`partitioning`), and the new eigenbasis is
+V X. All of it is in single precision, and V need not be exact: a pass squares the distance from V
+to the eigenvectors. The complex pairs are then refined as invariant subspaces until their
+residuals, in double precision, are small (`refinement`). Where the trace defect is too large, too
+many eigenvalues are near-degenerate or a subspace stays unconverged, another pass starts from the
+new basis. Where an eigenvalue is missing or counted twice, E is too large, and the basis first
+moves to the eigenvectors of diag(d) + E/2 or diag(d) + E/4. LAPACK solves what is left, and every K
+whose backbone differs from that of the state before.
 """
 
 from __future__ import annotations
@@ -29,95 +20,75 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sparse
 
-from grainmodes.complex_pairs.definition import Loaded, Pairs, dense_eigenpairs, selected
-from grainmodes.complex_pairs.eigenbasis import Basis
-from grainmodes.complex_pairs.partitioning import NearlyDiagonal, Solved, solved
-from grainmodes.complex_pairs.refinement import sharpened
+from grainmodes.complex_pairs.definition import (
+    ComplexPairs,
+    DynamicalMatrix,
+    dense_eigenpairs,
+    select_pairs,
+)
+from grainmodes.complex_pairs.partitioning import (
+    Eigensystem,
+    NearlyDiagonal,
+    partitioned_eigensystem,
+)
+from grainmodes.complex_pairs.refinement import Eigenbasis, refined_subspaces
 
-ENOUGH = 1.0
-"""Largest part of an eigenvector outside its window with which a pass is believed."""
+TRACE_TOLERANCE = 1e-3
+"""|Σλ − tr B| above which the subspaces are not refined, k_N d^(1/2)/m."""
 
-SUM_RIGHT = 1e-3
-"""What the sum of the eigenvalues may be off by."""
+MAX_PASSES = 5
+"""Passes for one K, after which LAPACK costs no more."""
 
-MOST = 5
-"""Passes, after which LAPACK costs no more."""
-
-PARTS = (0.5, 0.25)
-"""How far to go where the whole way is too far for the windows."""
+PARTS = (1.0, 0.5, 0.25)
+"""Parts of E with which B is tried."""
 
 
-class Carried:
-    """Finds pairs by carrying the eigenvectors of the last matrix on; `dense`: LAPACK did it."""
+class EigenbasisContinuation:
+    """Finds complex pairs from the eigenbasis of the last K; `dense`: LAPACK solved this one."""
 
     def __init__(self) -> None:
-        self._basis: Basis | None = None
-        self._held = np.zeros(0, bool)
+        self._basis: Eigenbasis | None = None
+        self._backbone = np.zeros(0, bool)
         self.dense = True
 
-    def find(self, loaded: Loaded) -> Pairs:
-        """Every complex pair of K; its zero modes are carried like all others.
+    def find(self, problem: DynamicalMatrix) -> ComplexPairs:
+        """All complex pairs of K; its two zero modes are continued like all other modes.
 
         Raises:
             numpy.linalg.LinAlgError: the dense eigensolver did not converge.
         """
-        if len(loaded.held) != len(self._held):
-            return self._anew(loaded)
-        either = np.repeat(self._held | loaded.held, 3)
-        came, stays = (np.repeat(of, 3)[either] for of in (~self._held, loaded.held))
-        self._basis = self._basis.with_units(came)
-        pairs = self._carried_on(_on(stays, loaded.matrix))
-        if pairs is None:
-            return self._anew(loaded)
-        self._basis, self._held = self._basis.without(~stays), loaded.held
         self.dense = False
-        return Pairs(pairs.value, pairs.right[stays], pairs.left[stays])
-
-    def _carried_on(self, matrix: sparse.csr_array) -> Pairs | None:
-        """The pairs of the first pass that is believed; None where there is none."""
-        for _ in range(MOST):
-            found = self._pass(matrix)
-            if found is None:
-                break
-            if found.coupling.max() < ENOUGH and found.missing < SUM_RIGHT:
-                couples = sharpened(matrix, self._basis, found)
-                if couples is not None:
-                    return couples.pairs
-        return None
-
-    def _pass(self, matrix: sparse.csr_array) -> Solved | None:
-        """The eigenpairs of B, or of a matrix on the way to it; the basis goes on to them."""
-        vectors = self._basis.vectors
-        moved = matrix.astype(np.float32) @ vectors
-        diagonal = np.einsum("nk,nk->k", vectors, moved)
-        change = self._basis.inverse @ (moved - vectors * diagonal)
-        nearly = NearlyDiagonal.of(diagonal.astype(float), change)
-        found = solved(nearly) or _on_the_way(nearly)
-        if found is not None:
-            self._basis = Basis.of(vectors[:, nearly.order] @ found.rows.T)
-        return found
-
-    def _anew(self, loaded: Loaded) -> Pairs:
-        """By LAPACK, the vectors kept."""
-        values, left, right = dense_eigenpairs(loaded.matrix)
+        if np.array_equal(self._backbone, problem.backbone):
+            for _ in range(MAX_PASSES):
+                found = self._pass(problem.matrix)
+                if found is None:
+                    break
+                if found.trace_defect < TRACE_TOLERANCE:
+                    subspaces = refined_subspaces(problem.matrix, self._basis, found)
+                    if subspaces is not None:
+                        return subspaces.pairs
+        values, left, right = dense_eigenpairs(problem.matrix)
         order = np.lexsort((-values.imag, values.real))
-        self._basis = Basis.of(np.where(values.imag < 0.0, -right.imag, right.real)[:, order])
-        self._held, self.dense = loaded.held, True
-        return selected(values, right, left)
+        real_columns = np.where(values.imag < 0.0, -right.imag, right.real)[:, order]
+        self._basis = Eigenbasis.from_vectors(real_columns)
+        self._backbone, self.dense = problem.backbone, True
+        return select_pairs(values, right, left)
 
-
-def _on_the_way(matrix: NearlyDiagonal) -> Solved | None:
-    """The eigenpairs of the first nearer matrix that has all of them; not to be believed."""
-    for part in PARTS:
-        found = solved(matrix.partly(part))
-        if found is not None:
-            return found._replace(missing=np.inf)
-    return None
-
-
-def _on(these: np.ndarray, matrix: sparse.csr_array) -> sparse.csr_array:
-    """A matrix (K, K) in the K of M coordinates that are `these`, (M,) bool; 0 in the others."""
-    if these.all():
-        return matrix
-    place = sparse.eye_array(len(these), format="csr")[:, np.flatnonzero(these)]
-    return (place @ matrix @ place.T).tocsr()
+    def _pass(self, matrix: sparse.csr_array) -> Eigensystem | None:
+        """The eigenpairs of B by partitioning; the eigenbasis moves on to them."""
+        vectors = self._basis.vectors
+        image = matrix.astype(np.float32) @ vectors
+        quotients = np.einsum("nk,nk->k", vectors, image)
+        perturbation = self._basis.inverse @ (image - vectors * quotients)
+        diagonal = quotients.astype(float) + np.diagonal(perturbation)
+        order = np.argsort(diagonal, kind="stable")
+        transposed = np.ascontiguousarray(perturbation[order].T)[order]
+        np.fill_diagonal(transposed, 0.0)
+        perturbation = np.ascontiguousarray(transposed.T)
+        for part in PARTS:
+            nearly = NearlyDiagonal(diagonal[order], part * perturbation, part * transposed)
+            found = partitioned_eigensystem(nearly)
+            if found is not None:
+                self._basis = Eigenbasis.from_vectors(vectors[:, order] @ found.rows.T)
+                return found if part == 1.0 else found._replace(trace_defect=np.inf)
+        return None

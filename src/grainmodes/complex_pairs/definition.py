@@ -1,21 +1,21 @@
-"""Complex pairs of eigenvalues and what travels with them: C, Sec. III A and B.
+"""Complex pairs of eigenvalues and what belongs to them: C, Sec. III A and B.
 
     M q̈ = −J q,   K = M^(−1/2) J M^(−1/2),   K u = λ u,   q = M^(−1/2) u                 C (9)-(11)
     λ = λ_r ± iλ_i,   ω_r + iω_i = √λ,   q(t) = q(0) e^{ω_i t} sin(ω_r t)               C (12), (13)
 
 K has the eigenvalues of M⁻¹J and is symmetric where J is. Where two eigenvalues meet, their
-eigenvectors become parallel and 1/|vᴴu|, by which an error of K grows into one of λ, diverges. It
-is the condition of an eigenvalue and stands beside it everywhere.
+eigenvectors become parallel, and the condition 1/|vᴴu| of the eigenvalue diverges. An error of K
+grows by this factor into an error of λ, so the condition stands beside every eigenvalue.
 
-| symbol           | name      | shape, type     |
-| ---------------- | --------- | --------------- |
-| K                | matrix    | (3N', 3N')      |
-| λ, λ_i > 0       | value     | (P,) complex    |
-| u, of norm 1     | right     | (3N, P) complex |
-| v, with vᴴu = 1  | left      | (3N, P) complex |
-| 1/|vᴴu|, norms 1 | condition | (P,)            |
+| symbol           | name      | shape, type, unit                     |
+| ---------------- | --------- | ------------------------------------- |
+| K                | matrix    | (3N', 3N') sparse, k_N d^(1/2)/m      |
+| λ, λ_i > 0       | value     | (P,) complex128, k_N d^(1/2)/m        |
+| u, of norm 1     | right     | (3N, P) complex128                    |
+| v, with vᴴu = 1  | left      | (3N, P) complex128                    |
+| 1/|vᴴu|, norms 1 | condition | (P,) float64                          |
 
-N' of the N grains carry load; the vectors are zero on the others.
+N' of the N grains carry load, the backbone. The vectors are zero on the others.
 """
 
 from __future__ import annotations
@@ -28,23 +28,26 @@ import scipy.sparse as sparse
 
 from grainmodes.response.stability import REAL, asymmetry
 
-ROUNDING = 1e-14
-"""max|K − Kᵀ| / max|K| of a symmetric J."""
+SYMMETRY_TOLERANCE = 1e-14
+"""max|K − Kᵀ| / max|K| up to which K counts as symmetric."""
 
 
-class Loaded(NamedTuple):
-    """K (3N', 3N') of the N' grains that carry load, with its zero modes (3N', 2), orthonormal.
+class DynamicalMatrix(NamedTuple):
+    """K of the backbone.
 
-    `held`: (N,) bool, which grains they are.
+    Attributes:
+        matrix: K, (3N', 3N').
+        null: its zero modes on both sides, (3N', Z), orthonormal.
+        backbone: which of the N grains carry load, (N,) bool.
     """
 
     matrix: sparse.csr_array
     null: np.ndarray
-    held: np.ndarray
+    backbone: np.ndarray
 
 
-class Pairs(NamedTuple):
-    """Complex pairs of a state, λ_r ascending; the other of each is its conjugate."""
+class ComplexPairs(NamedTuple):
+    """The complex pairs of a state, λ_r ascending. Each stands for λ and its conjugate."""
 
     value: np.ndarray
     right: np.ndarray
@@ -68,46 +71,50 @@ def translations(mass: np.ndarray) -> np.ndarray:
     return null
 
 
-def dense_pairs(matrix: sparse.csr_array) -> Pairs:
-    """Every complex pair by LAPACK: the definition.
+def dense_pairs(matrix: sparse.csr_array) -> ComplexPairs:
+    """All complex pairs of K (M, M) by LAPACK: the definition.
 
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
     value, left, right = dense_eigenpairs(matrix)
-    return selected(value, right, left)
+    return select_pairs(value, right, left)
 
 
 def dense_eigenpairs(matrix: sparse.csr_array) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Eigenvalues (M,) complex, left and right vectors (M, M) by LAPACK.
 
-    A K that is symmetric but for rounding has real ones, found in a third of the time.
+    A K that is symmetric up to rounding has real ones, which take a third of the time.
 
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
-    if asymmetry(matrix.tocsc()) < ROUNDING:
+    if asymmetry(matrix.tocsc()) < SYMMETRY_TOLERANCE:
         value, vectors = scipy.linalg.eigh(matrix.toarray(), overwrite_a=True, driver="evd")
         return value.astype(complex), vectors, vectors
     return scipy.linalg.eig(matrix.toarray(), left=True, overwrite_a=True)
 
 
-def selected(value: np.ndarray, right: np.ndarray, left: np.ndarray) -> Pairs:
+def select_pairs(value: np.ndarray, right: np.ndarray, left: np.ndarray) -> ComplexPairs:
     """The complex pairs among eigenvalues (M,) with vectors (n, M), scaled to vᴴu = 1."""
     upper = np.flatnonzero(value.imag > REAL)
     upper = upper[np.argsort(value.real[upper], kind="stable")]
     right = right[:, upper] / np.linalg.norm(right[:, upper], axis=0)
     products = np.einsum("np,np->p", left[:, upper].conj(), right)
-    return Pairs(value[upper], right, left[:, upper] / products.conj())
+    return ComplexPairs(value[upper], right, left[:, upper] / products.conj())
 
 
-def quotients(matrix: sparse.csr_array, pairs: Pairs) -> Pairs:
-    """The pairs with λ = vᴴ K u, whose error is the square of that of the vectors."""
-    return pairs._replace(value=np.einsum("np,np->p", pairs.left.conj(), matrix @ pairs.right))
+def with_rayleigh_quotients(matrix: sparse.csr_array, pairs: ComplexPairs) -> ComplexPairs:
+    """The pairs with their two-sided Rayleigh quotients λ = vᴴ K u.
+
+    The error of the quotient is of the order of the product of the errors of u and v.
+    """
+    value = np.einsum("np,np->p", pairs.left.conj(), matrix @ pairs.right)
+    return pairs._replace(value=value)
 
 
-def on_all_grains(vectors: np.ndarray, held: np.ndarray) -> np.ndarray:
-    """Vectors (3N', P) of the grains that carry load on all N, (3N, P)."""
-    whole = np.zeros((3 * len(held), vectors.shape[1]), vectors.dtype)
-    whole[np.repeat(held, 3)] = vectors
+def on_all_grains(vectors: np.ndarray, backbone: np.ndarray) -> np.ndarray:
+    """Vectors (3N', P) of the backbone, (N,) bool, on all N grains: (3N, P)."""
+    whole = np.zeros((3 * len(backbone), vectors.shape[1]), vectors.dtype)
+    whole[np.repeat(backbone, 3)] = vectors
     return whole

@@ -33,7 +33,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from grainmodes.complex_pairs.arnoldi_discs import REACH, SAME, Disc, Discs
-from grainmodes.complex_pairs.definition import Pairs, quotients, selected
+from grainmodes.complex_pairs.definition import ComplexPairs, select_pairs, with_rayleigh_quotients
 from grainmodes.response.stability import REAL
 
 STEP = 0.8
@@ -50,7 +50,7 @@ RIGHT = 1e-9
 """What Σλ and Σλ² may be off by, in units of M max|K| and M max|K|²."""
 
 
-def pairs_by_windows(matrix: sparse.csr_array, null: np.ndarray) -> Pairs:
+def pairs_by_windows(matrix: sparse.csr_array, null: np.ndarray) -> ComplexPairs:
     """Every complex pair of K (M, M).
 
     Args:
@@ -74,17 +74,19 @@ def pairs_by_windows(matrix: sparse.csr_array, null: np.ndarray) -> Pairs:
     return _merged([_pairs(matrix, discs, part) for part in parts])
 
 
-def _pairs(matrix: sparse.csr_array, discs: Discs, part: Disc) -> Pairs:
+def _pairs(matrix: sparse.csr_array, discs: Discs, part: Disc) -> ComplexPairs:
     """The pairs of a disc."""
     pairs = part.value[part.value.imag > REAL]
-    return quotients(matrix, selected(pairs, part.right, discs.left(part)))
+    return with_rayleigh_quotients(matrix, select_pairs(pairs, part.right, discs.left(part)))
 
 
-def _merged(parts: list[Pairs]) -> Pairs:
+def _merged(parts: list[ComplexPairs]) -> ComplexPairs:
     """The pairs of all parts, λ_r ascending; they are taken out of the list, one by one."""
     value = np.concatenate([part.value for part in parts])
     place = np.argsort(np.argsort(value.real, kind="stable"), kind="stable")
-    merged = Pairs(np.empty_like(value), *np.empty((2, len(parts[0].right), len(value)), complex))
+    merged = ComplexPairs(
+        np.empty_like(value), *np.empty((2, len(parts[0].right), len(value)), complex)
+    )
     while parts:
         part = parts.pop()
         place, at = np.split(place, [len(place) - len(part.value)])

@@ -1,21 +1,21 @@
-"""Many planes of two eigenvectors at once, with what is missing to make each of them invariant.
+"""Two-dimensional subspaces, many at once, and how far each is from being invariant under K.
 
-A plane is spanned by R on the right and L on the left, Lᵀ R = 1, and K on it is B = Lᵀ K R. It is
-invariant where the residuals are 0,
+A subspace is spanned by R on the right and by L on the left, Lᵀ R = 1. Its block B is the matrix of
+two-sided Rayleigh quotients, and it is invariant where both residuals vanish:
 
-    K R − R B = 0,   Kᵀ L − L Bᵀ = 0
+    B = Lᵀ K R,   K R − R B = 0,   Kᵀ L − L Bᵀ = 0
 
-and λ, the eigenvalues of B, are those of K then; elsewhere they are right to the product of both.
-With B k = λ k and Bᵀ m = λ* m a pair is u = R k, v = L m.
+The eigenvalues λ of B are then those of K; elsewhere their error is of the order of the product of
+both residuals. With B k = λ k and Bᵀ l = λ* l a complex pair has the vectors u = R k and v = L l.
 
-| symbol         | name         | shape                                          |
-| -------------- | ------------ | ---------------------------------------------- |
-| R, orthonormal | right        | (K, 2, M)                                      |
-| L              | left         | (K, 2, M)                                      |
-| B              | block        | (K, 2, 2)                                      |
-| K R − R B      | missing      | (K, 2, M)                                      |
-| Kᵀ L − L Bᵀ    | missing_left | (K, 2, M)                                      |
-| the larger one | residual     | (K,), in units of max|K|; of L in those of |L| |
+| symbol         | name           | shape                                           |
+| -------------- | -------------- | ----------------------------------------------- |
+| R, orthonormal | right          | (P, 2, M)                                       |
+| L              | left           | (P, 2, M)                                       |
+| B              | block          | (P, 2, 2)                                       |
+| K R − R B      | right_residual | (P, 2, M)                                       |
+| Kᵀ L − L Bᵀ    | left_residual  | (P, 2, M)                                       |
+| larger norm    | residual       | (P,), in units of max|K|; for L also of |L|     |
 """
 
 from __future__ import annotations
@@ -25,91 +25,76 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse as sparse
 
-from grainmodes.complex_pairs.definition import Pairs
+from grainmodes.complex_pairs.definition import ComplexPairs
 from grainmodes.response.stability import REAL
 
 
-class Couples(NamedTuple):
-    """Planes of two eigenvectors each."""
+class Subspaces(NamedTuple):
+    """Two-dimensional subspaces with their blocks and residuals, float64."""
 
     right: np.ndarray
     left: np.ndarray
     block: np.ndarray
-    missing: np.ndarray
-    missing_left: np.ndarray
+    right_residual: np.ndarray
+    left_residual: np.ndarray
     residual: np.ndarray
 
     @classmethod
-    def of(cls, matrix: sparse.csr_array, right: np.ndarray, left: np.ndarray) -> Couples:
-        """The planes of real vectors (K, 2, M) as they are; they need no scale."""
+    def spanned_by(cls, matrix: sparse.csr_array, right: np.ndarray, left: np.ndarray) -> Subspaces:
+        """The subspaces spanned by real vectors (P, 2, M) of any norm, for K (M, M)."""
         right, left = orthonormal(right), orthonormal(left)
         left = np.linalg.inv(left @ right.swapaxes(1, 2)) @ left
-        forward, back = _applied(matrix, right), _applied(matrix.T, left)
+        forward, backward = _product(matrix, right), _product(matrix.T, left)
         block = left @ forward.swapaxes(1, 2)
-        missing, missing_left = forward - block.swapaxes(1, 2) @ right, back - block @ left
-        residual = np.maximum(_size(missing), _size(missing_left) / _size(left))
+        right_residual = forward - block.swapaxes(1, 2) @ right
+        left_residual = backward - block @ left
+        parts = (right_residual, left_residual, left)
+        norms = [np.sqrt(np.einsum("pkm,pkm->p", part, part)) for part in parts]
+        residual = np.maximum(norms[0], norms[1] / norms[2])
         residual /= np.abs(matrix.data).max()
-        return cls(right, left, block, missing, missing_left, residual)
-
-    def at(self, these: np.ndarray) -> Couples:
-        """Some of them."""
-        return Couples(*(of[these] for of in self))
-
-    def with_those(self, these: np.ndarray, others: Couples) -> Couples:
-        """Others in the places of some, (K,) bool."""
-        if these.all():
-            return others
-        for mine, new in zip(self, others, strict=True):
-            mine[these] = new
-        return self
+        return cls(right, left, block, right_residual, left_residual, residual)
 
     @property
-    def middle(self) -> np.ndarray:
-        """(λ1 + λ2)/2, (K,)."""
-        return 0.5 * np.trace(self.block, axis1=1, axis2=2)
-
-    @property
-    def pairs(self) -> Pairs:
-        """The complex pairs among them, u of norm 1, vᴴu = 1."""
+    def pairs(self) -> ComplexPairs:
+        """The complex pairs among the eigenvalues, λ_r ascending, |u| = 1 and vᴴu = 1."""
         (a, b), (c, d) = np.moveaxis(self.block, 0, -1)
-        imaginary = 0.5 * np.sqrt(np.maximum(-((a - d) ** 2) - 4.0 * b * c, 0.0))
-        (those,) = np.nonzero(imaginary > REAL)
-        those = those[np.argsort(self.middle[those], kind="stable")]
-        values = (self.middle + 1j * imaginary)[those]
-        block = self.block[those]
-        right, left = kernels(block, values), kernels(block.swapaxes(1, 2), values.conj())
-        left /= np.einsum("kp,kp->k", left, right.conj())[:, None]
-        return Pairs(values, _on(self.right[those], right), _on(self.left[those], left))
+        values = 0.5 * (a + d) + 0.5j * np.sqrt(np.maximum(-((a - d) ** 2) - 4.0 * b * c, 0.0))
+        (pairs,) = np.nonzero(values.imag > REAL)
+        pairs = pairs[np.argsort(values.real[pairs], kind="stable")]
+        values, block = values[pairs], self.block[pairs]
+        right = block_eigenvectors(block, values)
+        left = block_eigenvectors(block.swapaxes(1, 2), values.conj())
+        left /= np.einsum("pk,pk->p", left, right.conj())[:, None]
+        u, v = (
+            np.einsum("pkm,pk->mp", plane[pairs], coordinates)
+            for plane, coordinates in ((self.right, right), (self.left, left))
+        )
+        return ComplexPairs(values, u, v)
 
 
-def kernels(block: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Eigenvectors (K, 2) of norm 1 of 2 × 2 blocks (K, 2, 2), the longer column of adj(B − λ)."""
+def block_eigenvectors(block: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Eigenvectors (P, 2) of norm 1 of blocks (P, 2, 2): the longer column of adj(B − λ).
+
+    Where B = λ both columns are zero and the first unit vector is taken.
+    """
     (a, b), (c, d) = np.moveaxis(block, 0, -1)
     columns = np.array([[values - d, c + 0j], [b + 0j, values - a]])
     lengths = np.linalg.norm(columns, axis=1)
     longest, each = lengths.argmax(axis=0), np.arange(len(values))
-    return columns[longest, :, each] / lengths[longest, each][:, None]
+    vectors, length = columns[longest, :, each], lengths[longest, each][:, None]
+    return np.where(length > 0.0, vectors / np.where(length > 0.0, length, 1.0), [1.0, 0.0])
 
 
-def orthonormal(planes: np.ndarray) -> np.ndarray:
-    """Orthonormal bases (K, 2, M) of the planes of two rows each: Gram-Schmidt, twice."""
-    one, two = planes[:, 0], planes[:, 1]
+def orthonormal(vectors: np.ndarray) -> np.ndarray:
+    """Orthonormal bases of the planes of two rows each, (P, 2, M): Gram-Schmidt, twice."""
+    one, two = vectors[:, 0], vectors[:, 1]
     one = one / np.linalg.norm(one, axis=1, keepdims=True)
     for _ in range(2):
-        two = two - one * np.einsum("km,km->k", one, two)[:, None]
+        two = two - one * np.einsum("pm,pm->p", one, two)[:, None]
         two = two / np.linalg.norm(two, axis=1, keepdims=True)
     return np.stack([one, two], axis=1)
 
 
-def _on(planes: np.ndarray, coordinates: np.ndarray) -> np.ndarray:
-    """Vectors (M, K) with coordinates (K, 2) on planes."""
-    return np.einsum("kpm,kp->mk", planes, coordinates)
-
-
-def _applied(matrix: sparse.csr_array, planes: np.ndarray) -> np.ndarray:
-    """K of every row of planes (K, 2, M)."""
-    return (matrix @ planes.reshape(-1, planes.shape[2]).T).T.reshape(planes.shape)
-
-
-def _size(planes: np.ndarray) -> np.ndarray:
-    return np.sqrt(np.einsum("kpm,kpm->k", planes, planes))
+def _product(matrix: sparse.csr_array, vectors: np.ndarray) -> np.ndarray:
+    """K times every row of vectors (P, 2, M)."""
+    return (matrix @ vectors.reshape(-1, vectors.shape[2]).T).T.reshape(vectors.shape)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.complex_pairs.definition import Pairs
+from grainmodes.complex_pairs.definition import ComplexPairs
 from grainmodes.complex_pairs.invariant_subspaces import orthonormal
 
 SAME = 0.5
@@ -26,7 +26,7 @@ class Planes(NamedTuple):
     left: np.ndarray
 
     @classmethod
-    def of(cls, pairs: Pairs) -> Planes:
+    def of(cls, pairs: ComplexPairs) -> Planes:
         """The planes of pairs, R orthonormal."""
         right, left = (
             orthonormal(np.stack([of.real.T, of.imag.T], axis=1))

@@ -1,184 +1,141 @@
-"""All eigenvalues of a nearly diagonal matrix that is not symmetric, window by window.
+"""All eigenpairs of a nearly diagonal matrix by second-order (Löwdin, Feshbach) partitioning.
 
-    B = diag(d) + E,   d ascending,   E small but not against the gaps of d
+    B = diag(d) + E,   d ascending,   E small, but not against the gaps of d
 
-The eigenvalues near a place in the spectrum come from the modes C around it, a window and some
-margin; the others R act on them through what is second order in E,
+The spectrum is cut into windows of neighbouring modes. For one window let C be its modes, a margin
+on both sides and the few *strongly coupled* modes, which are mixed with all others where a contact
+has changed; R are the remaining modes. To second order in E the modes R act on C through
 
     S(λ) = B_CC + B_CR (λ − d_R)⁻¹ B_RC,   x_R = (λ − d_R)⁻¹ B_RC x_C
 
-linear in λ around the middle σ of the window, S ≃ S(σ) − (λ − σ) G, G = B_CR (σ − d_R)⁻² B_RC, so
-that λ − σ are the eigenvalues of (1 + G)⁻¹ (S(σ) − σ), which is solved densely. All of it is small,
-and single precision is enough. A few modes that couple to all others, the hubs, stand in every
-window: where a contact has changed, all modes that live there are mixed.
+This effective matrix is linearised around the middle σ of the window,
 
-Each window gives the eigenvalues between two cuts in the widest gaps near its ends. That none is
-missing or counted twice is seen from their number and their sum, tr B.
+    S(λ) ≃ S(σ) − (λ − σ) G,   G = B_CR (σ − d_R)⁻² B_RC,   (1 + G)⁻¹ (S(σ) − σ) x_C = (λ − σ) x_C
 
-| symbol        | name             | shape                                          |
-| ------------- | ---------------- | ---------------------------------------------- |
-| d, E, Eᵀ      | diagonal, change, transposed | (M,), (M, M)                       |
-| C             | inside           | places (K,) of the modes of a window           |
-| B_CR, B_RCᵀ   | reach, back      | (K, M), with the columns of C as well          |
-| x_C           | inner            | (n, K), of a pair its real and imaginary part  |
+and the last equation is a dense eigenproblem of 72 modes, for which single precision is enough.
+Neighbouring windows overlap in their margins, and a cut in the widest gap of the eigenvalues near
+their border decides which window keeps an eigenvalue. The number of eigenvalues and the trace
+defect |Σλ − tr B| certify that none is missing and none is counted twice.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import lapack
 
-SIZE, MARGIN, HUBS = 72, 12, 16
-"""Modes solved with a window, of these in the margin on each side, and most of them hubs.
+SIZE, MARGIN, MAX_STRONG = 72, 12, 16
+"""Modes of C, of these in the margin on each side, and at most strongly coupled.
 
-LAPACK takes another, slower path from 75 on.
-"""
+LAPACK is slower from 75 modes on."""
 
-MISCOUNTED = 0.02
-"""Missing part of tr B from which an eigenvalue was left out and another one taken twice."""
+STRONG_COUPLING = 20.0
+"""|Σ_l E_kl E_lk| of a strongly coupled mode k, in units of the median of all modes."""
 
-OUTSTANDING = 20.0
-"""Coupling of such a mode to all others, in units of the median."""
+MAX_TRACE_DEFECT = 0.02
+"""|Σλ − tr B| above which one eigenvalue was left out and another one counted twice."""
 
 
-class Solved(NamedTuple):
-    """Eigenvalues (M,) of B; of a complex pair the one with λ_i > 0 stands before its conjugate.
+class NearlyDiagonal(NamedTuple):
+    """B = diag(d) + E.
 
-    `rows`, (M, M) float32: eigenvectors, of a pair its real and its imaginary part. `coupling`,
-    (M,): the part of an eigenvector outside its window, in units of that within. `missing`: by how
-    much the sum of the eigenvalues is not tr B.
+    Attributes:
+        diagonal: d, (M,) float64, ascending.
+        perturbation: E, (M, M) float32 with 0 on the diagonal.
+        transposed: Eᵀ, stored once more so that columns of E can be read as rows.
+    """
+
+    diagonal: np.ndarray
+    perturbation: np.ndarray
+    transposed: np.ndarray
+
+    def strongly_coupled(self) -> np.ndarray:
+        """Places of the modes that couple most to all others, if they stand out."""
+        coupling = np.abs(np.einsum("kl,kl->k", self.perturbation, self.transposed))
+        most = np.argsort(-coupling)[:MAX_STRONG]
+        return most[coupling[most] > STRONG_COUPLING * np.median(coupling)]
+
+
+class Eigensystem(NamedTuple):
+    """All eigenpairs of B; a complex pair takes two places: λ and Re x, then λ* and Im x.
+
+    Attributes:
+        values: λ, (M,) complex128, of a pair first the one with λ_i > 0.
+        rows: x, (M, M) float32, one row a vector.
+        coupling: |x_R| / |x_C|, (M,) float32.
+        trace_defect: |Σλ − tr B|.
     """
 
     values: np.ndarray
     rows: np.ndarray
     coupling: np.ndarray
-    missing: float
+    trace_defect: float
 
 
-class NearlyDiagonal(NamedTuple):
-    """B = diag(d) + E: d (M,) ascending, E and Eᵀ (M, M) float32 with 0 on the diagonal.
-
-    `order`, (M,): where each mode stood before.
-    """
-
-    order: np.ndarray
-    diagonal: np.ndarray
-    change: np.ndarray
-    transposed: np.ndarray
-
-    @classmethod
-    def of(cls, diagonal: np.ndarray, change: np.ndarray) -> NearlyDiagonal:
-        """From d in any order, and E (M, M) with a diagonal."""
-        diagonal = diagonal + np.diagonal(change)
-        order = np.argsort(diagonal, kind="stable")
-        transposed = np.ascontiguousarray(change[order].T)[order]
-        np.fill_diagonal(transposed, 0.0)
-        return cls(order, diagonal[order], np.ascontiguousarray(transposed.T), transposed)
-
-    def partly(self, part: float) -> NearlyDiagonal:
-        """A part of the way from diag(d) to B."""
-        return self._replace(change=part * self.change, transposed=part * self.transposed)
-
-    @property
-    def hubs(self) -> np.ndarray:
-        """The modes that couple most to all others, if they stand out."""
-        coupling = np.abs(np.einsum("kl,kl->k", self.change, self.transposed))
-        most = np.argsort(-coupling)[:HUBS]
-        return most[coupling[most] > OUTSTANDING * np.median(coupling)]
-
-
-class Window(NamedTuple):
-    """Eigenvalues (K,) of the modes around a place in the spectrum, their vectors as rows."""
-
-    inside: np.ndarray
-    values: np.ndarray
-    inner: np.ndarray
-
-    def between(self, low: float, high: float) -> Window:
-        """Those with low <= λ_r < high."""
-        these = (self.values.real >= low) & (self.values.real < high)
-        return Window(self.inside, self.values[these], self.inner[these])
-
-
-def solved(matrix: NearlyDiagonal) -> Solved | None:
-    """The eigenpairs of B; None where an eigenvalue is missing or counted twice."""
-    size, hubs = len(matrix.diagonal), matrix.hubs
-    width = SIZE - 2 * MARGIN - len(hubs)
+def partitioned_eigensystem(matrix: NearlyDiagonal) -> Eigensystem | None:
+    """All eigenpairs of B; None where an eigenvalue is missing or counted twice."""
+    diagonal, size, strong = matrix.diagonal, len(matrix.diagonal), matrix.strongly_coupled()
+    width = SIZE - 2 * MARGIN - len(strong)
     edges = [*range(0, size - width // 2, width), size]
-    with np.errstate(all="ignore"):  # a mode outside a window may stand exactly at its λ
-        windows = [*_windows(matrix, edges, hubs)]
-        ends = [0.5 * matrix.diagonal[end - 1 : end + 1].sum() for end in edges[1:-1]]
-        cuts = [_cut(*both, end) for both, end in zip(pairwise(windows), ends, strict=True)]
+    with np.errstate(all="ignore"):  # a mode of R may stand exactly at σ or λ
+        windows = [_solve_window(matrix, strong, *ends) for ends in pairwise(edges)]
+        levels = [values.real for _, values, _ in windows]
+        borders = [0.5 * diagonal[edge - 1 : edge + 1].sum() for edge in edges[1:-1]]
+        cuts = [_cut(*two, at) for two, at in zip(pairwise(levels), borders, strict=True)]
         limits = pairwise([-np.inf, *cuts, np.inf])
-        taken = [of.between(*ends) for of, ends in zip(windows, limits, strict=True)]
-        values = np.concatenate([of.values for of in taken])
-        if len(values) != size:
-            return None
-        rows, coupling = (
-            np.concatenate(of) for of in zip(*(_extended(matrix, of) for of in taken), strict=True)
-        )
-    missing = abs(values.real.sum() - matrix.diagonal.sum())
-    if not np.isfinite(coupling).all() or missing > MISCOUNTED:
+        parts = [_extend(matrix, *each, *ends) for each, ends in zip(windows, limits, strict=True)]
+    values, rows, coupling = (np.concatenate(part) for part in zip(*parts, strict=True))
+    trace_defect = abs(values.real.sum() - diagonal.sum())
+    if len(values) != size or not np.isfinite(coupling).all() or trace_defect > MAX_TRACE_DEFECT:
         return None
-    return Solved(values, rows, coupling, missing)
+    return Eigensystem(values, rows, coupling, trace_defect)
 
 
-def _windows(matrix: NearlyDiagonal, edges: list[int], hubs: np.ndarray) -> Iterator[Window]:
-    """All modes between two edges and in the margins on both sides, by LAPACK."""
-    for first, last in pairwise(edges):
-        near = np.arange(max(first - MARGIN, 0), min(last + MARGIN, edges[-1]))
-        inside, middle = np.union1d(near, hubs), matrix.diagonal[(first + last) // 2]
-        reduced = _reduced(matrix, inside, middle)
-        real, imaginary, _, vectors, _ = lapack.sgeev(reduced, compute_vl=0, overwrite_a=1)
-        yield Window(inside, middle + real.astype(float) + 1j * imaginary, vectors.T)
-
-
-def _reduced(matrix: NearlyDiagonal, inside: np.ndarray, middle: float) -> np.ndarray:
-    """(1 + G)⁻¹ (S(σ) − σ) of the modes `inside`."""
-    distance = middle - matrix.diagonal
-    block = matrix.change[np.ix_(inside, inside)] - np.diag(distance[inside])
-    distance[inside] = np.inf
+def _solve_window(matrix: NearlyDiagonal, strong: np.ndarray, first: int, last: int):
+    """C (K,), λ (K,) and x_C (K, K) for the modes `first` to `last`, margins and strong ones."""
+    diagonal, perturbation, transposed = matrix
+    near = np.arange(max(first - MARGIN, 0), min(last + MARGIN, len(diagonal)))
+    modes, middle = np.union1d(near, strong), diagonal[(first + last) // 2]
+    distance = middle - diagonal
+    block = perturbation[np.ix_(modes, modes)] - np.diag(distance[modes])
+    distance[modes] = np.inf  # so that the sums over R leave out C
     inverse = (1.0 / distance).astype(np.float32)
-    reach = matrix.change[inside] * inverse
-    both = np.vstack([reach, reach * inverse]) @ matrix.transposed[inside].T
-    second, bend = both[: len(inside)], both[len(inside) :]
-    return np.linalg.solve(np.eye(len(inside), dtype=np.float32) + bend, block + second)
+    b_cr, b_rc = perturbation[modes] * inverse, transposed[modes].T
+    slope = np.eye(len(modes), dtype=np.float32) + (b_cr * inverse) @ b_rc
+    reduced = np.linalg.solve(slope, block + b_cr @ b_rc)
+    real, imaginary, _, vectors, _ = lapack.sgeev(reduced, compute_vl=0, overwrite_a=1)
+    return modes, middle + real.astype(float) + 1j * imaginary, vectors.T
 
 
-def _cut(left: Window, right: Window, wanted: float) -> float:
-    """The middle of the widest gap that two windows leave around a place."""
-    values = np.sort(np.concatenate([left.values.real, right.values.real]))
-    place = int(np.searchsorted(values, wanted))
+def _cut(lower: np.ndarray, upper: np.ndarray, border: float) -> float:
+    """The middle of the widest gap that λ_r of two windows leave around their border."""
+    values = np.sort(np.concatenate([lower, upper]))
+    place = int(np.searchsorted(values, border))
     near = values[max(place - MARGIN, 0) : place + MARGIN]
     widest = int(np.argmax(np.diff(near)))
     return float(near[widest] + near[widest + 1]) / 2.0
 
 
-def _extended(matrix: NearlyDiagonal, window: Window) -> tuple[np.ndarray, np.ndarray]:
-    """The vectors (K, M) of a window over all modes, and the parts outside it."""
-    inside, values, inner = window
-    vectors = _divided(inner @ matrix.transposed[inside], values, matrix.diagonal)
-    vectors[:, inside] = 0.0
-    parts = np.stack([np.einsum("km,km->k", of, of) for of in (vectors, inner)])
-    vectors[:, inside] = inner
+def _extend(
+    matrix: NearlyDiagonal,
+    modes: np.ndarray,
+    values: np.ndarray,
+    inner: np.ndarray,
+    low: float,
+    high: float,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """λ (n,) with low <= λ_r < high, their x (n, M) on all modes, and |x_R| / |x_C| (n,)."""
+    inside = (values.real >= low) & (values.real < high)
+    values, inner = values[inside], inner[inside]
+    rows = inner @ matrix.transposed[modes]
     (pair,) = np.nonzero(values.imag > 0.0)
-    parts[:, pair] = parts[:, pair + 1] = parts[:, pair] + parts[:, pair + 1]
-    return vectors, np.sqrt(parts[0] / parts[1])
-
-
-def _divided(rows: np.ndarray, values: np.ndarray, diagonal: np.ndarray) -> np.ndarray:
-    """(λ − d)⁻¹ x for rows x (K, M) of eigenvalues λ, of a pair its real and imaginary part."""
-    distance = (values.real[:, None] - diagonal).astype(np.float32)
-    imaginary = values.imag.astype(np.float32)[:, None]
-    found = rows * distance
-    (pair,) = np.nonzero(values.imag > 0.0)
-    found[pair] += rows[pair + 1] * imaginary[pair]
-    found[pair + 1] -= rows[pair] * imaginary[pair]
-    distance *= distance
-    distance += imaginary**2
-    found /= distance
-    return found
+    complex_rows = (rows[pair] + 1j * rows[pair + 1]) / (values[pair, None] - matrix.diagonal)
+    rows /= values.real[:, None] - matrix.diagonal
+    rows[pair], rows[pair + 1] = complex_rows.real, complex_rows.imag
+    rows[:, modes] = 0.0
+    squares = np.stack([np.einsum("km,km->k", part, part) for part in (rows, inner)])
+    squares[:, pair] = squares[:, pair + 1] = squares[:, pair] + squares[:, pair + 1]
+    rows[:, modes] = inner
+    return values, rows, np.sqrt(squares[0] / squares[1])

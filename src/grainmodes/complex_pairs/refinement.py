@@ -1,143 +1,151 @@
-"""Planes of two eigenvectors sharpened: are their eigenvalues right, are they real or a pair?
+"""Refinement of invariant subspaces: which eigenvalues are complex pairs, and where are they?
 
-After a pass of `carried` an eigenvector is right to the square of its coupling; its eigenvalue is
-better, but not against the distance of one that it nearly meets. For a plane with R, L and B the
-residuals show how much of the other modes l is missing, and in them K is Λ:
+After a partitioning the error of an eigenvector is of the order of its coupling squared. That is
+enough for an eigenvalue by itself, but not for two that nearly meet. Every complex pair, and every
+two near-degenerate neighbours, therefore span a subspace with a residual in double precision
+(`invariant_subspaces`). In the eigenbasis V, where K is nearly Λ, a Newton step refines it:
 
-    R ← R + V x,     x B − Λ x = V⁻¹ (K R − R B)
-    L ← L + V⁻ᵀ y,   y Bᵀ − Λᵀ y = Vᵀ (Kᵀ L − L Bᵀ)
+    R ← R + V X,      X B − Λ X = V⁻¹ (K R − R B)
+    L ← L + V⁻ᵀ Y,    Y Bᵀ − Λᵀ Y = Vᵀ (Kᵀ L − L Bᵀ)
 
-which is x_l = c_l (B − λ_l)⁻¹ with the whole 2 × 2 block: the eigenvalues of B may be far from each
-other, or a pair of a large λ_i, with λ_l between them. One step takes a residual to its square,
-where no third mode is as near as that. All pairs are taken, and all couples in doubt.
-
-| symbol     | name              | shape                                                     |
-| ---------- | ----------------- | --------------------------------------------------------- |
-| V⁻¹ (…)    | c                 | (K, 2, M): two rows a plane, on columns of V of norm 1    |
-| λ_l        | values            | (M,) complex, a pair's one after the other, λ_i > 0 first |
-| their norms| size              | (M,) of Re u, Im u in V                                   |
-| Λ          |                   | ((λ_r, λ_i), (−λ_i, λ_r)) on Re u and Im u                |
+These are Sylvester equations with a diagonal Λ: mode k has x_k = c_k (B − λ_k)⁻¹ with the whole
+2 × 2 block, so that λ_k may lie between the two eigenvalues of B. A step squares a residual, unless
+a third mode is near-degenerate with the two.
 """
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 import scipy.sparse as sparse
+from scipy.linalg import lapack
 
-from grainmodes.complex_pairs.eigenbasis import Basis
-from grainmodes.complex_pairs.invariant_subspaces import Couples
-from grainmodes.complex_pairs.partitioning import Solved
+from grainmodes.complex_pairs.invariant_subspaces import Subspaces
+from grainmodes.complex_pairs.partitioning import Eigensystem
 from grainmodes.response.stability import REAL
 
-SHARP = 1e-4
-"""Residual of a sharpened plane, in units of max|K|; λ is right to about its square."""
+BLOCK_SIZE = 256
+"""Columns that LAPACK inverts at once. `scipy.linalg.inv` takes a fifth longer."""
 
-STEPS = 3
-"""Steps after which a plane that is not sharp will not become so."""
+RESIDUAL_TOLERANCE = 1e-4
+"""Residual of a converged subspace, in units of max|K|; λ is right to about its square."""
 
-MANY = 0.25
-"""Couples in doubt, in units of all modes, from which another pass costs less."""
+MAX_STEPS = 3
+"""Newton steps, after which an unconverged subspace will not converge."""
 
-HOPELESS = 0.125
-"""Share of blunt planes after a step from which another pass costs less."""
+MAX_NEAR_DEGENERATE, MAX_UNCONVERGED = 0.25, 0.125
+"""Near-degenerate neighbours per mode, and share of unconverged subspaces after a step, above which
+another partitioning costs less."""
 
-CLOSE = 1e-4
-"""|λ1 − λ2|, k_N d^(1/2)/m, within which a pass does not tell a pair from two real modes."""
-
-LOOSE = 0.3
-"""The same for a strongly coupled mode, in units of its coupling squared; measured."""
+MIN_GAP, GAP_PER_COUPLING = 1e-4, 0.3
+"""|λ1 − λ2| of near-degenerate eigenvalues, k_N d^(1/2)/m, and per coupling squared; measured."""
 
 
-def nearly_meeting(values: np.ndarray, coupling: np.ndarray) -> np.ndarray:
-    """Places (K, 2) of two eigenvalues that nearly meet, for their coupling; none stands twice."""
-    unsure = np.maximum(CLOSE, LOOSE * coupling**2)
-    (pairs,) = np.nonzero((values.imag > 0.0) & (2.0 * values.imag < unsure))
-    return np.array([*zip(pairs, pairs + 1, strict=True), *_couples(values, unsure)], int).reshape(
-        -1, 2
-    )
+class Eigenbasis(NamedTuple):
+    """Approximate eigenvectors of K as a real basis, with its inverse.
+
+    Attributes:
+        vectors: V, (M, M) float32, columns of norm 1: u, or of a pair Re u and then Im u.
+        norms: (M,), norms of the columns before; Im u may be tiny against Re u.
+        inverse: V⁻¹, (M, M) float32; its rows are the left eigenvectors.
+    """
+
+    vectors: np.ndarray
+    norms: np.ndarray
+    inverse: np.ndarray
+
+    @classmethod
+    def from_vectors(cls, vectors: np.ndarray) -> Eigenbasis:
+        """The basis of real columns (M, M) of any norm."""
+        norms = np.linalg.norm(vectors, axis=0)
+        columns = (vectors / norms).astype(np.float32)
+        factors, pivots, _ = lapack.sgetrf(columns.T)
+        inverse, _ = lapack.sgetri(factors, pivots, lwork=BLOCK_SIZE * len(norms))
+        return cls(columns, norms, inverse.T)
 
 
-def _couples(values: np.ndarray, unsure: np.ndarray) -> list[tuple[int, int]]:
-    """Neighbours among the real eigenvalues, the nearest ones first."""
+def near_degenerate(values: np.ndarray, coupling: np.ndarray) -> np.ndarray:
+    """Places (P, 2) of two eigenvalues that may be a pair or real, none of them twice.
+
+    They are a pair close to the real axis or two real neighbours, the nearest ones first.
+    """
+    limit = np.maximum(MIN_GAP, GAP_PER_COUPLING * coupling**2)
+    (pairs,) = np.nonzero((values.imag > 0.0) & (2.0 * values.imag < limit))
     (real,) = np.nonzero(values.imag == 0.0)
     real = real[np.argsort(values.real[real], kind="stable")]
     gap = np.diff(values.real[real])
-    close = gap < np.maximum(unsure[real[:-1]], unsure[real[1:]])
-    found, used = [], set()
-    for at in np.argsort(gap[close], kind="stable"):
-        couple = tuple(real[np.flatnonzero(close)[at] :][:2].tolist())
-        if used.isdisjoint(couple):
-            found.append(couple)
-            used.update(couple)
-    return found
+    (close,) = np.nonzero(gap < np.maximum(limit[real[:-1]], limit[real[1:]]))
+    places, free = [*zip(pairs, pairs + 1, strict=True)], np.ones(len(values), bool)
+    for first in close[np.argsort(gap[close], kind="stable")]:
+        two = real[first : first + 2]
+        if free[two].all():
+            places.append(two)
+            free[two] = False
+    return np.array(places, int).reshape(-1, 2)
 
 
-def sharpened(matrix: sparse.csr_array, basis: Basis, found: Solved) -> Couples | None:
-    """The planes of all pairs and of what may be some; None where they do not become sharp."""
-    doubtful = nearly_meeting(found.values, found.coupling)
-    if len(doubtful) > MANY * len(found.values):
+def refined_subspaces(
+    matrix: sparse.csr_array, basis: Eigenbasis, found: Eigensystem
+) -> Subspaces | None:
+    """The subspaces of all complex pairs and near-degenerate neighbours of K (M, M).
+
+    None where too many are near-degenerate or some do not converge.
+    """
+    unsure = near_degenerate(found.values, found.coupling)
+    if len(unsure) > MAX_NEAR_DEGENERATE * len(found.values):
         return None
-    places = _with_pairs(doubtful, found.values)
-    now = Couples.of(matrix, basis.columns(places), basis.rows(places))
-    blunt = now.residual >= SHARP
-    blunt[: len(doubtful)] = True
-    for _ in range(STEPS):
-        if not blunt.any():
-            return now
-        better = _improved(now.at(blunt), basis, found.values, places[blunt])
-        now = now.with_those(blunt, Couples.of(matrix, *better))
-        blunt = ~(now.residual < SHARP)
-        if blunt.sum() > HOPELESS * len(blunt):
+    isolated = found.values.imag > REAL
+    isolated[unsure] = False
+    (isolated,) = np.nonzero(isolated)
+    modes = np.vstack([unsure, np.stack([isolated, isolated + 1], axis=1)])
+    right, left = (rows[modes].astype(float) for rows in (basis.vectors.T, basis.inverse))
+    subspaces = Subspaces.spanned_by(matrix, right, left)
+    unconverged = subspaces.residual >= RESIDUAL_TOLERANCE
+    unconverged[: len(unsure)] = True
+    for _ in range(MAX_STEPS):
+        if not unconverged.any():
+            break
+        start = Subspaces(*(part[unconverged] for part in subspaces))
+        vectors = _newton_step(start, basis, found.values, modes[unconverged])
+        for part, better in zip(subspaces, Subspaces.spanned_by(matrix, *vectors), strict=True):
+            part[unconverged] = better
+        unconverged = ~(subspaces.residual < RESIDUAL_TOLERANCE)
+        if unconverged.sum() > MAX_UNCONVERGED * len(unconverged):
             return None
-    return None if blunt.any() else now
+    return None if unconverged.any() else subspaces
 
 
-def _with_pairs(couples: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Places (K, 2) of couples and then of all pairs that are not among them."""
-    alone = values.imag > REAL
-    alone[couples] = False
-    (alone,) = np.nonzero(alone)
-    return np.vstack([couples, np.stack([alone, alone + 1], axis=1)])
-
-
-def _improved(
-    now: Couples, basis: Basis, values: np.ndarray, places: np.ndarray
+def _newton_step(
+    start: Subspaces, basis: Eigenbasis, values: np.ndarray, modes: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """R and L (K, 2, M) one step nearer to those of K."""
-    vectors, size, inverse = basis
-    others = _without(_times(now.missing, inverse.T), places)
-    right = now.right + _times(_divided(others, now.block, values, size), vectors.T)
-    others = _without(_times(now.missing_left, vectors), places)
-    block, values = now.block.swapaxes(1, 2), values.conj()
-    return right, now.left + _times(_divided(others, block, values, 1.0 / size), inverse)
+    """R + V X and L + V⁻ᵀ Y, (P, 2, M), without the `modes` (P, 2) that span the subspace."""
+    vectors, norms, inverse = basis
+    each, block = np.arange(len(modes))[:, None], start.block
+
+    def product(rows: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+        flat = rows.reshape(-1, len(values)).astype(np.float32, copy=False)
+        return (flat @ matrix).reshape(rows.shape)
+
+    right, left = product(start.right_residual, inverse.T), product(start.left_residual, vectors)
+    right[each, :, modes] = left[each, :, modes] = 0.0
+    right = _sylvester(right, block, values, norms)
+    left = _sylvester(left, block.swapaxes(1, 2), values.conj(), 1.0 / norms)
+    return start.right + product(right, vectors.T), start.left + product(left, inverse)
 
 
-def _times(planes: np.ndarray, matrix: np.ndarray) -> np.ndarray:
-    """Every row of planes (K, 2, M) times a matrix (M, M), in single precision."""
-    rows = planes.reshape(-1, planes.shape[2]).astype(np.float32, copy=False)
-    return (rows @ matrix).reshape(planes.shape)
-
-
-def _without(coordinates: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """Coordinates (K, 2, M) of what is missing of planes, those within each plane left out."""
-    coordinates[np.arange(len(places))[:, None], :, places] = 0.0
-    return coordinates
-
-
-@np.errstate(divide="ignore", invalid="ignore", over="ignore")  # it then stays blunt
-def _divided(
-    coordinates: np.ndarray, block: np.ndarray, values: np.ndarray, size: np.ndarray
-) -> np.ndarray:
-    """The x of x B − Λ x = c; on α Re u + β Im u of a pair Λ multiplies α − iβ by λ."""
+@np.errstate(divide="ignore", invalid="ignore", over="ignore")  # the subspace stays unconverged
+def _sylvester(c: np.ndarray, block: np.ndarray, values: np.ndarray, norms: np.ndarray):
+    """The x (P, 2, M) of x B − Λ x = c. On α Re u + β Im u of a pair Λ multiplies α − iβ by λ."""
     (pair,) = np.nonzero(values.imag)
     one, two = pair[::2], pair[1::2]
-    ratio = (size[one] / size[two]).astype(np.float32)
-    c = coordinates.astype(np.complex64)
-    c[:, :, one] -= 1j * ratio * coordinates[:, :, two]
+    ratio = (norms[one] / norms[two]).astype(np.float32)
+    z = c.astype(np.complex64)
+    z[:, :, one] -= 1j * ratio * c[:, :, two]
     (p, q), (r, s) = np.moveaxis(block, 0, -1)[..., None]
-    p, s = ((of - values).astype(np.complex64) for of in (p, s))
-    q, r = (of.astype(np.float32) for of in (q, r))
+    p, s = ((entry - values).astype(np.complex64) for entry in (p, s))
+    q, r = (entry.astype(np.float32) for entry in (q, r))
     scale = 1.0 / (p * s - q * r)
-    x = np.stack([c[:, 0] * s - c[:, 1] * r, c[:, 1] * p - c[:, 0] * q], axis=1) * scale[:, None]
+    x = np.stack([z[:, 0] * s - z[:, 1] * r, z[:, 1] * p - z[:, 0] * q], axis=1) * scale[:, None]
     x.real[:, :, two] = -x.imag[:, :, one] / ratio
     return x.real

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from grainmodes.complex_pairs.definition import on_all_grains
-from grainmodes.complex_pairs.plane import plane_near
+from grainmodes.complex_pairs.inverse_iteration import plane_near
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
 from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, Side
 from grainmodes.protocols.pair_tracking.linear_range import Chosen

@@ -1,31 +1,55 @@
 """Complex pairs against LAPACK and against two degrees of freedom in closed form."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.sparse as sparse
+from grainmodes.protocols.shear.quasistatic import first_balance, step_to
 from numpy.testing import assert_allclose
 
+from dense_continuation import DenseContinuation, dense_eigensystem
 from example_packings import SHEARED, reference, smoothed_coulomb
 from grainmodes.complex_pairs import continuation, partitioning
-from grainmodes.complex_pairs.continuation import Carried
-from grainmodes.complex_pairs.definition import Loaded, Pairs, dense_pairs
-from grainmodes.complex_pairs.eigenbasis import Basis
-from grainmodes.complex_pairs.invariant_subspaces import Couples
+from grainmodes.complex_pairs.continuation import EigenbasisContinuation
+from grainmodes.complex_pairs.definition import (
+    ComplexPairs,
+    DynamicalMatrix,
+    dense_pairs,
+    translations,
+)
+from grainmodes.complex_pairs.invariant_subspaces import Subspaces
+from grainmodes.complex_pairs.inverse_iteration import SETTLED, plane_near, plane_of
 from grainmodes.complex_pairs.matching import Planes, matched, parts
-from grainmodes.complex_pairs.partitioning import NearlyDiagonal, Solved, solved
-from grainmodes.complex_pairs.plane import SETTLED, plane_near, plane_of
-from grainmodes.complex_pairs.refinement import SHARP, nearly_meeting, sharpened
+from grainmodes.complex_pairs.partitioning import (
+    Eigensystem,
+    NearlyDiagonal,
+    partitioned_eigensystem,
+)
+from grainmodes.complex_pairs.refinement import (
+    RESIDUAL_TOLERANCE,
+    Eigenbasis,
+    near_degenerate,
+    refined_subspaces,
+)
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
+from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.exceptional_points import fitted
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.response.stability import complex_pairs
 
 
-def loaded(matrix: sparse.csr_array, held: np.ndarray | None = None) -> Loaded:
+def problem(matrix: sparse.csr_array, held: np.ndarray | None = None) -> DynamicalMatrix:
     """K with no zero modes told; every grain carries load unless `held` says otherwise."""
     held = np.ones(matrix.shape[0] // 3, bool) if held is None else held
-    return Loaded(matrix, np.zeros((matrix.shape[0], 0)), held)
+    return DynamicalMatrix(matrix, np.zeros((matrix.shape[0], 0)), held)
+
+
+def nearly_diagonal(diagonal: np.ndarray, perturbation: np.ndarray) -> NearlyDiagonal:
+    single = perturbation.astype(np.float32)
+    return NearlyDiagonal(diagonal, single, np.ascontiguousarray(single.T))
 
 
 @pytest.fixture(scope="module")
@@ -80,9 +104,9 @@ def test_a_symmetric_jacobian_has_no_pair():
     at_rest = EquilibriumState.from_packing(
         packing, Interaction.from_law(smoothed_coulomb(reference(SHEARED)[0]))
     )
-    detector = Carried()
+    detector = EigenbasisContinuation()
     matrix = mass_weighted_jacobian(at_rest.matrix, at_rest.backbone.mass)
-    assert [len(detector.find(loaded(matrix)).value) for _ in range(2)] == [0, 0]
+    assert [len(detector.find(problem(matrix)).value) for _ in range(2)] == [0, 0]
     assert not detector.dense
     assert len(dense_pairs(matrix).value) == 0
 
@@ -153,7 +177,7 @@ def test_pairs_are_the_same_ones_in_any_order(matrix):
     found = dense_pairs(matrix)
     order = np.random.default_rng(0).permutation(len(found.value))
     turned = found.right[:, order] * np.exp(0.7j)
-    other = Pairs(found.value[order], turned, found.left[:, order] * np.exp(0.7j))
+    other = ComplexPairs(found.value[order], turned, found.left[:, order] * np.exp(0.7j))
     found, other = Planes.of(found), Planes.of(other)
     assert sorted(matched(found, other)) == [(order[k], k) for k in np.argsort(order)]
     assert_allclose(parts(found, found), np.eye(len(order)), atol=1e-5)
@@ -167,7 +191,7 @@ def test_a_nearly_diagonal_matrix_is_solved_window_by_window():
     diagonal = np.sort(draws.uniform(0.0, 2.0, size))
     change = 8e-4 * draws.standard_normal((size, size))
     b = np.diag(diagonal) + change - np.diag(np.diag(change))
-    found = solved(NearlyDiagonal.of(diagonal, change - np.diag(np.diag(change))))
+    found = partitioned_eigensystem(nearly_diagonal(diagonal, change - np.diag(np.diag(change))))
     expected = np.linalg.eigvals(b)
     assert np.count_nonzero(expected.imag) > 10
     nearest = np.abs(found.values[:, None] - expected).min(axis=1)
@@ -187,7 +211,7 @@ def test_a_pair_far_from_the_real_axis_has_its_part_outside_the_window():
     b[[75, 76], [76, 75]] = 0.3, -0.3
     np.fill_diagonal(b, 0.0)
     diagonal = np.linspace(0.0, 2.0, size)
-    found, b = solved(NearlyDiagonal.of(diagonal, b)), b + np.diag(diagonal)
+    found, b = partitioned_eigensystem(nearly_diagonal(diagonal, b)), b + np.diag(diagonal)
     place = int(np.argmax(found.values.imag))
     vector = found.rows[place] + 1j * found.rows[place + 1]
     assert found.values[place].imag == pytest.approx(0.3, abs=1e-3)
@@ -196,14 +220,19 @@ def test_a_pair_far_from_the_real_axis_has_its_part_outside_the_window():
 
 def test_two_eigenvalues_are_in_doubt_as_far_as_their_coupling_reaches():
     values = np.array([0.1, 0.3, 0.31, 0.5 + 4e-3j, 0.5 - 4e-3j, 0.7, 0.9])
-    assert nearly_meeting(values, np.full(7, 0.01)).tolist() == []
-    assert nearly_meeting(values, np.full(7, 0.25)).tolist() == [[3, 4], [1, 2]]
+    assert near_degenerate(values, np.full(7, 0.01)).tolist() == []
+    assert near_degenerate(values, np.full(7, 0.25)).tolist() == [[3, 4], [1, 2]]
 
 
 def test_what_is_not_nearly_diagonal_is_not_solved():
     size = 150
     draws = np.random.default_rng(3)
-    assert solved(NearlyDiagonal.of(np.zeros(size), draws.standard_normal((size, size)))) is None
+    assert (
+        partitioned_eigensystem(
+            nearly_diagonal(np.zeros(size), draws.standard_normal((size, size)))
+        )
+        is None
+    )
 
 
 def test_modes_that_couple_to_all_others_stand_in_every_window(monkeypatch):
@@ -214,12 +243,12 @@ def test_modes_that_couple_to_all_others_stand_in_every_window(monkeypatch):
     change[hubs] += 5e-3 * draws.standard_normal((2, size))
     change[:, hubs] = change[hubs].T
     np.fill_diagonal(change, 0.0)
-    nearly = NearlyDiagonal.of(diagonal, change)
-    found, expected = solved(nearly), np.linalg.eigvals(np.diag(diagonal) + change)
-    assert sorted(nearly.hubs.tolist()) == hubs
+    nearly = nearly_diagonal(diagonal, change)
+    found, expected = partitioned_eigensystem(nearly), np.linalg.eigvals(np.diag(diagonal) + change)
+    assert sorted(nearly.strongly_coupled().tolist()) == hubs
     assert np.median(np.abs(found.values[:, None] - expected).min(axis=0)) < 1e-7
-    monkeypatch.setattr(partitioning, "HUBS", 0)
-    assert np.median(found.coupling) < 0.5 * np.median(solved(nearly).coupling)
+    monkeypatch.setattr(partitioning, "MAX_STRONG", 0)
+    assert np.median(found.coupling) < 0.5 * np.median(partitioned_eigensystem(nearly).coupling)
 
 
 def test_couples_know_the_pairs_and_what_they_lack(matrix):
@@ -228,7 +257,7 @@ def test_couples_know_the_pairs_and_what_they_lack(matrix):
         np.stack([side.real.T, side.imag.T], axis=1) for side in (expected.right, expected.left)
     )
     right, left = planes
-    found = Couples.of(matrix, right[::-1], left[::-1])
+    found = Subspaces.spanned_by(matrix, right[::-1], left[::-1])
     assert found.residual.max() < 1e-12
     assert_allclose(found.pairs.value, expected.value, atol=1e-12)
     assert_allclose(found.pairs.condition, expected.condition, rtol=1e-8)
@@ -236,11 +265,11 @@ def test_couples_know_the_pairs_and_what_they_lack(matrix):
     assert_allclose(np.einsum("np,np->p", found.pairs.left.conj(), found.pairs.right), 1.0)
     size = 1e-3 * np.abs(matrix.data).max()
     right[0] += size * np.random.default_rng(0).standard_normal(right[0].shape)
-    assert Couples.of(matrix, right, left).residual.argmax() == 0
+    assert Subspaces.spanned_by(matrix, right, left).residual.argmax() == 0
 
 
 @pytest.mark.parametrize("imaginary", [1e-5, 1e-3, 0.1])
-def test_a_pair_between_other_modes_is_sharpened(imaginary):
+def test_a_pair_between_other_modes_is_refined_subspaces(imaginary):
     size, draws = 60, np.random.default_rng(2)
     values = np.sort(draws.uniform(0.5, 1.5, size)) + 0j
     values[[20, 21]] = values[20].real + imaginary * np.array([1j, -1j])
@@ -250,27 +279,29 @@ def test_a_pair_between_other_modes_is_sharpened(imaginary):
         blocks[one, one + 1], blocks[one + 1, one] = values[one].imag, values[one + 1].imag
     exact = np.eye(size) + 0.2 * draws.standard_normal((size, size)) / np.sqrt(size)
     matrix = sparse.csr_array(exact @ blocks @ np.linalg.inv(exact))
-    basis = Basis.of(exact + 1e-3 * exact @ draws.standard_normal((size, size)))
-    found = Solved(values, np.eye(size, dtype=np.float32), np.full(size, 0.02), 0.0)
+    basis = Eigenbasis.from_vectors(exact + 1e-3 * exact @ draws.standard_normal((size, size)))
+    found = Eigensystem(values, np.eye(size, dtype=np.float32), np.full(size, 0.02), 0.0)
     at = np.array([[20, 21], [40, 41]])
-    rough = Couples.of(matrix, basis.columns(at), basis.rows(at))
-    couples, expected = sharpened(matrix, basis, found), dense_pairs(matrix)
-    assert rough.residual.min() > 10 * SHARP
-    assert couples.residual.max() < SHARP
+    rough = Subspaces.spanned_by(
+        matrix, basis.vectors.T[at].astype(float), basis.inverse[at].astype(float)
+    )
+    couples, expected = refined_subspaces(matrix, basis, found), dense_pairs(matrix)
+    assert rough.residual.min() > 10 * RESIDUAL_TOLERANCE
+    assert couples.residual.max() < RESIDUAL_TOLERANCE
     assert_allclose(couples.pairs.value, expected.value, atol=1e-6)
     assert_allclose(couples.pairs.condition, expected.condition, rtol=2e-2)
 
 
 def test_pairs_carried_on_are_those_of_lapack():
-    detector, seen = Carried(), 0
+    detector, seen = EigenbasisContinuation(), 0
     for matrix in path(120, 0.03):
-        found, expected = detector.find(loaded(matrix)), dense_pairs(matrix)
+        found, expected = detector.find(problem(matrix)), dense_pairs(matrix)
         assert len(found.value) == len(expected.value)
         assert_allclose(found.value, expected.value, atol=1e-6)
         assert_allclose(found.condition, expected.condition, rtol=0.02)
         left = np.linalg.norm(matrix.T @ found.left - found.left * found.value.conj(), axis=0)
         right = np.linalg.norm(matrix @ found.right - found.right * found.value, axis=0)
-        worst = SHARP * np.abs(matrix.data).max()
+        worst = RESIDUAL_TOLERANCE * np.abs(matrix.data).max()
         assert np.all(right < 2.0 * worst)
         assert np.all(left < 2.0 * worst * found.condition)
         seen += not detector.dense
@@ -281,20 +312,20 @@ def test_pairs_carried_on_are_those_of_lapack():
 @pytest.mark.parametrize("refused", [1, 2])
 def test_what_is_too_far_is_reached_on_the_way(monkeypatch, refused):
     first, then = path(120, 0.03)[:2]
-    detector, asked, believed = Carried(), [], []
+    detector, asked, believed = EigenbasisContinuation(), [], []
 
     def too_far(nearly):
-        asked.append(np.abs(nearly.change).max())
-        return None if len(asked) <= refused else solved(nearly)
+        asked.append(np.abs(nearly.perturbation).max())
+        return None if len(asked) <= refused else partitioned_eigensystem(nearly)
 
     def watched(*arguments):
         believed.append(len(asked))
-        return sharpened(*arguments)
+        return refined_subspaces(*arguments)
 
-    detector.find(loaded(first))
-    monkeypatch.setattr(continuation, "solved", too_far)
-    monkeypatch.setattr(continuation, "sharpened", watched)
-    found, expected = detector.find(loaded(then)), dense_pairs(then)
+    detector.find(problem(first))
+    monkeypatch.setattr(continuation, "partitioned_eigensystem", too_far)
+    monkeypatch.setattr(continuation, "refined_subspaces", watched)
+    found, expected = detector.find(problem(then)), dense_pairs(then)
     assert not detector.dense
     assert_allclose(asked[: refused + 1], asked[0] * 0.5 ** np.arange(refused + 1))
     assert min(believed) > refused + 1
@@ -303,25 +334,74 @@ def test_what_is_too_far_is_reached_on_the_way(monkeypatch, refused):
 
 def test_lapack_solves_what_cannot_be_carried_on(monkeypatch):
     first, *_, last = path(120, 0.03)
-    detector = Carried()
-    detector.find(loaded(first))
-    monkeypatch.setattr(continuation, "MOST", 0)
-    assert_allclose(detector.find(loaded(last)).value, dense_pairs(last).value, atol=1e-12)
+    detector = EigenbasisContinuation()
+    detector.find(problem(first))
+    monkeypatch.setattr(continuation, "MAX_PASSES", 0)
+    assert_allclose(detector.find(problem(last)).value, dense_pairs(last).value, atol=1e-12)
     assert detector.dense
 
 
-@pytest.mark.parametrize("came", [True, False])
-def test_a_grain_that_comes_or_goes_is_carried_too(came):
+@pytest.mark.parametrize("joins", [True, False])
+def test_lapack_solves_a_state_whose_backbone_has_changed(joins):
     some = np.arange(40) != 17
     strength = np.where(np.repeat(some, 3), 1.0, 0.03)
     whole = path(120, 0.03)[-1] * np.outer(strength, strength)
     inside = whole[np.ix_(*2 * [np.flatnonzero(strength == 1.0)])]
-    states = [loaded(sparse.csr_array(inside), some), loaded(sparse.csr_array(whole))]
-    first, then = states if came else states[::-1]
-    detector = Carried()
+    states = [problem(sparse.csr_array(inside), some), problem(sparse.csr_array(whole))]
+    first, then = states if joins else states[::-1]
+    detector = EigenbasisContinuation()
     detector.find(first)
-    for _ in range(2):
+    for dense in (True, False):
         found, expected = detector.find(then), dense_pairs(then.matrix)
-        assert not detector.dense
+        assert detector.dense == dense
         assert_allclose(found.value, expected.value, atol=1e-6)
         assert_allclose(found.condition, expected.condition, rtol=0.02)
+
+
+def test_a_partitioning_is_the_dense_eigensystem():
+    size, draws = 150, np.random.default_rng(3)
+    diagonal = np.sort(draws.uniform(0.0, 2.0, size))
+    perturbation = 8e-4 * draws.standard_normal((size, size))
+    np.fill_diagonal(perturbation, 0.0)
+    matrix = nearly_diagonal(diagonal, perturbation)
+    found, expected = partitioned_eigensystem(matrix), dense_eigensystem(matrix)
+    assert np.count_nonzero(expected.values.imag) > 4
+    nearest = np.abs(found.values[:, None] - expected.values).argmin(axis=1)
+    assert np.unique(nearest).size == size
+    assert_allclose(found.values, expected.values[nearest], atol=3e-5)
+    assert abs(found.trace_defect) < 1e-3 and expected.trace_defect < 1e-4
+    upper = np.flatnonzero(found.values.imag > 0.0)
+    single = np.setdiff1d(np.arange(size), np.concatenate([upper, upper + 1]))
+    one, two = found.rows[single], expected.rows[nearest[single]]
+    overlap = np.abs((one * two).sum(axis=1)) / np.linalg.norm(one, axis=1)
+    assert np.median(overlap) > 0.999
+
+
+def walk(coefficient: float, steps: int) -> list[DynamicalMatrix]:
+    """K of 64 grains of mass 1 in the states of a shear to γ = 1e-3 `steps`."""
+    law = Interaction.from_law(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, coefficient))
+    choices = Shear(step=1e-3, min_step=1e-3, force_tolerance=5e-14)
+    packing = reference("hertz_n64_phi0.900_seed1")[1]
+    state, states = first_balance(replace(packing, mass=np.ones(packing.n)), law, choices), []
+    for step in range(1, steps + 1):
+        state, _ = step_to(1e-3 * step, state, choices)
+        matrix = mass_weighted_jacobian(state.matrix, state.backbone.mass)
+        states.append(
+            DynamicalMatrix(matrix, translations(state.backbone.mass), state.backbone_mask)
+        )
+    return states
+
+
+@pytest.mark.parametrize("coefficient", [0.5, 10.0])
+def test_along_a_shear_continuation_is_its_dense_twin_and_lapack(coefficient):
+    fast, twin, number, continued = EigenbasisContinuation(), DenseContinuation(), 0, 0
+    for state in walk(coefficient, 15):
+        found, slow, expected = fast.find(state), twin.find(state), dense_pairs(state.matrix)
+        assert len(found.value) == len(slow.value) == len(expected.value)
+        assert_allclose(slow.value, expected.value, atol=1e-11)
+        assert_allclose(found.value, expected.value, atol=1e-6)
+        assert_allclose(found.condition, slow.condition, rtol=0.05)
+        number += len(expected.value)
+        continued += not fast.dense
+    assert number > 10
+    assert continued > 5

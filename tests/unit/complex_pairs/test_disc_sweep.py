@@ -12,9 +12,9 @@ from grainmodes.complex_pairs import disc_sweep
 from grainmodes.complex_pairs.arnoldi_discs import REACH, Disc, Discs
 from grainmodes.complex_pairs.definition import (
     dense_pairs,
-    quotients,
-    selected,
+    select_pairs,
     translations,
+    with_rayleigh_quotients,
 )
 from grainmodes.complex_pairs.disc_sweep import _shifts_above, pairs_by_windows
 from grainmodes.kernels.laws import Interaction
@@ -123,5 +123,7 @@ def test_quotients_are_right_to_the_square_of_what_vectors_are():
     matrix = sheared(10.0)
     exact, draws = dense_pairs(matrix), np.random.default_rng(6)
     right, left = (side + 1e-6 * draws.standard_normal(side.shape) for side in exact[1:])
-    roughly = selected(exact.value + 1e-3, right, left)
-    np.testing.assert_allclose(quotients(matrix, roughly).value, exact.value, atol=1e-8)
+    roughly = select_pairs(exact.value + 1e-3, right, left)
+    np.testing.assert_allclose(
+        with_rayleigh_quotients(matrix, roughly).value, exact.value, atol=1e-8
+    )

@@ -8,17 +8,17 @@ from typing import Protocol
 
 import numpy as np
 
-from grainmodes.complex_pairs.continuation import Carried
+from grainmodes.complex_pairs.continuation import EigenbasisContinuation
 from grainmodes.complex_pairs.definition import (
-    Loaded,
-    Pairs,
+    ComplexPairs,
+    DynamicalMatrix,
     dense_pairs,
     on_all_grains,
     translations,
 )
 from grainmodes.complex_pairs.disc_sweep import pairs_by_windows
+from grainmodes.complex_pairs.inverse_iteration import plane_of
 from grainmodes.complex_pairs.matching import Planes
-from grainmodes.complex_pairs.plane import plane_of
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
 from grainmodes.protocols.pair_tracking.exceptional_points import Side
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
@@ -30,7 +30,7 @@ class Detector(Protocol):
     dense: bool
     """Whether LAPACK solved the last one."""
 
-    def find(self, loaded: Loaded) -> Pairs:
+    def find(self, loaded: DynamicalMatrix) -> ComplexPairs:
         """Every complex pair of K on the grains that carry load."""
 
 
@@ -39,7 +39,7 @@ class ByLapack:
 
     dense = True
 
-    def find(self, loaded: Loaded) -> Pairs:
+    def find(self, loaded: DynamicalMatrix) -> ComplexPairs:
         """Every complex pair of K."""
         return dense_pairs(loaded.matrix)
 
@@ -49,7 +49,7 @@ class ByWindows:
 
     dense = False
 
-    def find(self, loaded: Loaded) -> Pairs:
+    def find(self, loaded: DynamicalMatrix) -> ComplexPairs:
         """Every complex pair of K.
 
         Raises:
@@ -59,7 +59,7 @@ class ByWindows:
 
 
 DETECTORS: dict[str, type[Detector]] = {
-    "continuation": Carried,
+    "continuation": EigenbasisContinuation,
     "dense": ByLapack,
     "discs": ByWindows,
 }
@@ -71,7 +71,7 @@ class Seen:
     """A state with its pairs, their vectors on all grains."""
 
     balance: EquilibriumState
-    pairs: Pairs
+    pairs: ComplexPairs
 
     @cached_property
     def planes(self) -> Planes:
@@ -103,6 +103,6 @@ def seen_by(detector: Detector, balance: EquilibriumState) -> Seen:
     """A state with the pairs that a detector finds in it."""
     mass = balance.backbone.mass
     matrix = mass_weighted_jacobian(balance.matrix, mass)
-    found = detector.find(Loaded(matrix, translations(mass), balance.backbone_mask))
+    found = detector.find(DynamicalMatrix(matrix, translations(mass), balance.backbone_mask))
     right, left = (on_all_grains(of, balance.backbone_mask) for of in (found.right, found.left))
-    return Seen(balance, Pairs(found.value, right, left))
+    return Seen(balance, ComplexPairs(found.value, right, left))

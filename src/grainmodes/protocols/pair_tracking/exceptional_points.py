@@ -5,9 +5,9 @@ D = (λ1 − λ2)² is analytic in γ and has a simple zero at γ_c (C 19, 20), 
     D = α (γ − γ_c) + β (γ − γ_c)²,   |λ1 − λ2| = |D|^(1/2) ∝ |γ − γ_c|^(1/2)               C (21)
 
 The step in which a pair was born or died is halved, each middle reached from the last state below
-it, until γ_c stands in a bracket no wider than asked. Whether the pair is there in the middle is
-told by its plane (`pairs.plane`), followed from the nearest state in which it is a pair. The
-bracket tells what happened:
+it, until γ_c stands in a bracket no wider than asked. Whether the pair exists in the middle is read
+from its invariant subspace (`complex_pairs.inverse_iteration`), followed from the nearest state in
+which it is a pair. The bracket tells what happened:
 
 | kind             | at the end of the halving                                            |
 | ---------------- | -------------------------------------------------------------------- |
@@ -27,7 +27,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.complex_pairs.plane import SETTLED, Plane, plane_near
+from grainmodes.complex_pairs.inverse_iteration import SETTLED, Plane, plane_near
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.events import count_network_changes

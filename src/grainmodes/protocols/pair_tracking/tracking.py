@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.complex_pairs.definition import Loaded, translations
+from grainmodes.complex_pairs.definition import DynamicalMatrix, translations
 from grainmodes.complex_pairs.matching import matched
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.complex_pairs import PairChoices
@@ -188,7 +188,7 @@ class PairWalk:
         of_jacobian, balance = np.nan, self.now.balance
         if self.of_jacobian:
             null = translations(np.ones(balance.backbone.n))
-            loaded = Loaded(balance.matrix.tocsr(), null, balance.backbone_mask)
+            loaded = DynamicalMatrix(balance.matrix.tocsr(), null, balance.backbone_mask)
             of_jacobian = len(self.of_jacobian.find(loaded).value)
         pairs, dense = len(self.now.pairs.value), self.detector.dense
         return Count(self.now.strain, pairs, of_jacobian, fastest, condition, dense)

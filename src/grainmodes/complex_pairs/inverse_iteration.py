@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse as sparse
 
-from grainmodes.complex_pairs.invariant_subspaces import Couples
+from grainmodes.complex_pairs.invariant_subspaces import Subspaces, block_eigenvectors
 from grainmodes.linalg.general_shift import Shifted
 
 MOST = 12
@@ -101,7 +101,7 @@ class Plane(NamedTuple):
 
 def plane_of(matrix: sparse.csr_array, right: np.ndarray, left: np.ndarray) -> Plane:
     """The plane of real vectors (M, 2) as it is, with its residual; they need no scale."""
-    found = Couples.of(matrix, right.T[None], left.T[None])
+    found = Subspaces.spanned_by(matrix, right.T[None], left.T[None])
     return Plane(found.right[0].T, found.left[0].T, found.block[0], float(found.residual[0]))
 
 
@@ -143,12 +143,5 @@ def _improved(factors: Shifted, now: Plane, close: float) -> tuple[np.ndarray, n
 
 
 def _kernels(block: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Eigenvectors of norm 1 of a 2 × 2 block, (2, K), as the longer column of adj(B − λ)."""
-    (a, b), (c, d) = block
-    found = []
-    for value in values:
-        columns = np.array([[value - d, c], [b, value - a]])
-        lengths = np.linalg.norm(columns, axis=1)
-        longest = np.argmax(lengths)
-        found.append(columns[longest] / lengths[longest] if lengths[longest] else np.eye(2)[0])
-    return np.array(found).T
+    """Eigenvectors of norm 1 of one block (2, 2), one column for each of its `values` (K,)."""
+    return block_eigenvectors(np.broadcast_to(block, (len(values), 2, 2)), values).T
