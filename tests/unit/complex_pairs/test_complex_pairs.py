@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.sparse as sparse
-from grainmodes.protocols.shear.quasistatic import first_balance, step_to
 from numpy.testing import assert_allclose
 
 from dense_continuation import DenseContinuation, dense_eigensystem
@@ -37,6 +36,7 @@ from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.exceptional_points import fitted
+from grainmodes.protocols.shear.strain_step import first_balance, step_to
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.response.stability import complex_pairs
 
