@@ -1,17 +1,18 @@
 """Δγ_Th of quasistatic shear: how closely an event is bracketed. B, Appendix B, Fig. 12.
 
 The strain grows in steps of Δγ_in = 1e-4. A step with an event is taken back and tried again with a
-tenth of its length, down to Δγ_Th; γ_c is the middle of the bracket that is left. So γ_c is known
-to Δγ_Th / 2, and each decade takes at most ten steps more, whatever the way to the event. Without
-backtracking every step on the way would be as short. B finds that γ_c converges for
+tenth of its length, down to Δγ_Th; γ_c is the middle of the final bracket. So γ_c is known to
+Δγ_Th / 2, and each decade takes at most ten more steps, however far the event is. Without
+backtracking every step up to the event would be as short. B finds that γ_c converges for
 Δγ_Th ≤ 1e-6 (B5).
 
-Which event is the first hangs on Δγ_in too: σ rises by g Δγ_in in a step, and a stress drop is seen
-only where it is larger. Without friction the first event is a contact that opens, g falls, and
-every Δγ_in sees it; with friction shorter steps see smaller drops, and see them earlier.
+Which event is the first also depends on Δγ_in: σ rises by g Δγ_in in a step, and a stress drop is
+noticed only if it is larger. Without friction the first event is the opening of a contact, g falls,
+and every Δγ_in notices it; with friction shorter steps notice smaller drops, and notice them
+earlier.
 
-Reference: γ_c of a walk of its own with Δγ_in = 1e-4 and Δγ_Th = 1e-12. Samples without an event up
-to `LAST` have failed.
+Reference: γ_c of a separate shear with Δγ_in = 1e-4 and Δγ_Th = 1e-12. Samples without an event up
+to `LARGEST_STRAIN` have failed.
 """
 
 from __future__ import annotations
@@ -28,12 +29,22 @@ from grainmodes.protocols.shear.first_event import accepted_steps
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.relaxation.frictionless import relax_fire_newton
 from grainmodes.stages.rows import SAMPLE_ERRORS
-from measurements.accuracy.diagram import FAILED, Diagram, Row, Sample, Size, apart, of, row, timed
+from measurements.accuracy.diagram import (
+    FAILED,
+    Diagram,
+    DiagramRow,
+    Size,
+    TimedError,
+    in_fresh_process,
+    size_suffix,
+    summarise,
+    timed,
+)
 from measurements.accuracy.packings import compressed
 
-PHI, LAST = 0.9, 0.1
+PHI, LARGEST_STRAIN = 0.9, 0.1
 
-SHIPPED, CLOSEST = Shear(), 1e-12
+DEFAULT, REFERENCE_WIDTH = Shear(), 1e-12
 """The defaults, and Δγ_Th of the reference."""
 
 FRICTION = Interaction.from_law(ContactLaw("harmonic", "elastic", 1.0))
@@ -42,11 +53,11 @@ FRICTIONLESS = Interaction.from_law(ContactLaw("harmonic"))
 
 
 WIDTHS = tuple(10.0**-k for k in range(4, 11))
-COARSE = (1e-3, 1e-4, 1e-5)
-"""Δγ_Th, and the steps that a whole way can be walked in."""
+COARSE_WIDTHS = (1e-3, 1e-4, 1e-5)
+"""Δγ_Th to try with brackets, and without, where every step is as short as Δγ_Th."""
 
 
-class Way(NamedTuple):
+class Bracketing(NamedTuple):
     """A law, and whether steps are taken back; else all are as short as Δγ_Th."""
 
     interaction: Interaction
@@ -55,50 +66,60 @@ class Way(NamedTuple):
     @property
     def widths(self) -> tuple[float, ...]:
         """The Δγ_Th to try."""
-        return WIDTHS if self.backtracking else COARSE
+        return WIDTHS if self.backtracking else COARSE_WIDTHS
 
     def shear(self, width: float) -> Shear:
-        """The shear whose bracket is so wide."""
-        return Shear(LAST, SHIPPED.step if self.backtracking else width, width)
+        """The shear with brackets of this width."""
+        return Shear(LARGEST_STRAIN, DEFAULT.step if self.backtracking else width, width)
 
 
-WAYS = {
-    "friction, steps taken back": Way(FRICTION, True),
-    "no friction, steps taken back": Way(FRICTIONLESS, True),
-    "friction, every step as short": Way(FRICTION, False),
-    "no friction, every step as short": Way(FRICTIONLESS, False),
+BRACKETINGS = {
+    "friction, steps taken back": Bracketing(FRICTION, True),
+    "no friction, steps taken back": Bracketing(FRICTIONLESS, True),
+    "friction, every step as short": Bracketing(FRICTION, False),
+    "no friction, every step as short": Bracketing(FRICTIONLESS, False),
 }
 
 
-def measure(size: Size) -> Iterator[Row]:
-    """A row for every way and Δγ_Th."""
+def measure(size: Size) -> Iterator[DiagramRow]:
+    """A row for every kind of bracketing and Δγ_Th."""
     for n in size.n:
         packings = [harmonic(n, seed) for seed in range(size.seeds)]
-        for name, way in WAYS.items():
-            closest = Shear(LAST, SHIPPED.step, CLOSEST)
-            exact = [critical_strain(packing, way.interaction, closest) for packing in packings]
-            for width in way.widths:
-                done = apart(sampled, name, width, packings, exact)
-                default = way.backtracking and width == SHIPPED.min_step
-                yield row(f"{name}{of(n, size)}", width, done.value, done.megabytes, default)
+        for name, bracketing in BRACKETINGS.items():
+            closest = Shear(LARGEST_STRAIN, DEFAULT.step, REFERENCE_WIDTH)
+            exact = [
+                critical_strain(packing, bracketing.interaction, closest) for packing in packings
+            ]
+            for width in bracketing.widths:
+                done = in_fresh_process(timed_errors, name, width, packings, exact)
+                default = bracketing.backtracking and width == DEFAULT.min_step
+                yield summarise(
+                    f"{name}{size_suffix(n, size)}", width, done.value, done.megabytes, default
+                )
 
 
 def harmonic(n: int, seed: int) -> Packing:
     """A packing of harmonic grains in its final balance."""
     packing = compressed(n, seed, PHI)
-    return relax_fire_newton(packing, FRICTION.normal, SHIPPED.force_tolerance, 10_000_000).packing
+    return relax_fire_newton(packing, FRICTION.normal, DEFAULT.force_tolerance, 10_000_000).packing
 
 
-def sampled(name: str, width: float, packings: list[Packing], exact: list[float]) -> list[Sample]:
+def timed_errors(
+    name: str, width: float, packings: list[Packing], exact: list[float]
+) -> list[TimedError]:
     """The error of γ_c of every packing."""
-    way = WAYS[name]
-    critical_strain(packings[0], way.interaction, Shear(2e-4, 1e-4, 1e-6))
-    return [_sample(way, width, *of) for of in zip(packings, exact, strict=True)]
+    bracketing = BRACKETINGS[name]
+    critical_strain(packings[0], bracketing.interaction, Shear(2e-4, 1e-4, 1e-6))
+    return [_timed_error(bracketing, width, *pair) for pair in zip(packings, exact, strict=True)]
 
 
-def _sample(way: Way, width: float, packing: Packing, exact: float) -> Sample:
-    strain, seconds = timed(critical_strain, packing, way.interaction, way.shear(width))
-    return FAILED if math.isnan(strain - exact) else Sample(seconds, abs(strain - exact))
+def _timed_error(
+    bracketing: Bracketing, width: float, packing: Packing, exact: float
+) -> TimedError:
+    strain, seconds = timed(
+        critical_strain, packing, bracketing.interaction, bracketing.shear(width)
+    )
+    return FAILED if math.isnan(strain - exact) else TimedError(seconds, abs(strain - exact))
 
 
 def critical_strain(packing: Packing, interaction: Interaction, shear: Shear) -> float:

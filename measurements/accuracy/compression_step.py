@@ -4,21 +4,20 @@ Grains are compressed in steps φ → φ + Φ (A, App. A). After each the forces
 
     max|F| < b f̄,     f̄ the mean contact force, b the intermediate balance
 
-and only the packing asked for gets its final balance. A compression is chaotic: a contact that
-opens at another moment may lead to another packing of the same ensemble, so that two protocols are
-judged on the same random placements, sample by sample, in two ways:
+and only the requested packing gets its final balance. A compression is chaotic: a contact that
+opens at another moment may lead to another packing of the same ensemble. So two protocols are
+compared on the same random placements, sample by sample:
 
-    other packings     the share of samples that end in another packing than the reference's
+    other packings     fraction of the samples that end in another packing than the reference
     mean of x          (m² + e²)^(1/2) / σ, for x = φ_J, P, Z, G: m the mean of x − x_ref, e its
-                       standard error, σ the standard deviation of x_ref: what m may well be
+                       standard error, σ the standard deviation of x_ref; a bound of |m|
+    one φ_J            median of |φ_J − φ_J,ref| / σ: a typical sample
 
-    one φ_J             the median of |φ_J − φ_J,ref| / σ: a sample that has not gone astray
+Where a protocol only exchanges packings within the ensemble, m stays below e, and e falls with the
+fraction of other packings. One or two packings that jam at another φ decide it, so that it may
+change by a large factor with the rounding. The Kolmogorov–Smirnov distance of φ_J is shown as well.
 
-Where a protocol only moves samples about within the ensemble, m stays below e, and e falls with the
-share of other packings: one or two of them that jam elsewhere decide it, so that it may change many
-times over when rounding does. The Kolmogorov–Smirnov distance of φ_J stands beside its mean.
-
-φ_J is the last grid point without a mean contact force of 1e-10: a coarse grid rounds it down.
+φ_J is the last grid point with a mean contact force below 1e-10: a coarse grid rounds it down.
 Reference: a fifth of the smallest Φ with the smallest b of all.
 """
 
@@ -43,23 +42,30 @@ from grainmodes.protocols.compression.trajectory import (
 from grainmodes.response.moduli import rigidity
 from grainmodes.stages.rows import SAMPLE_ERRORS
 from grainmodes.stages.samples import packed
-from measurements.accuracy.diagram import Apart, Diagram, Row, Size, apart, of
+from measurements.accuracy.diagram import (
+    Diagram,
+    DiagramRow,
+    ProcessResult,
+    Size,
+    in_fresh_process,
+    size_suffix,
+)
 from measurements.accuracy.packings import HERTZ
 
 PHI, INTERACTION = 0.87, Interaction.from_law(ContactLaw(kt=1e-4))
 
 STEPS = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 BALANCES = (1e-1, 1e-2, 1e-3, 1e-4)
-SHIPPED = Compression()
+DEFAULT = Compression()
 REFERENCE = Compression(phi_step=2e-5, intermediate_balance=1e-5)
 
-SAME = 1e-6
-"""Relative difference of P up to which two packings are one."""
+PRESSURE_TOLERANCE = 1e-6
+"""Relative difference of P up to which two packings count as the same."""
 
 PHI_J, P, Z, G = range(4)
 """Columns of an ensemble."""
 
-EQUAL_ENSEMBLES = 0.37
+KS_SCATTER = 0.37
 """Standard deviation of the distance of two independent samples of S each, in S^(-1/2)."""
 
 
@@ -89,39 +95,45 @@ def _sample(n: int, seed: int, protocol: Compression) -> tuple[float, float, flo
     return grid.phi_jamming, row["pressure"], row["contact_number"], g
 
 
-def measure(size: Size) -> Iterator[Row]:
+def measure(size: Size) -> Iterator[DiagramRow]:
     """The errors of every b and Φ."""
     for n in size.n:
-        exact = apart(ensemble, n, size.seeds, REFERENCE).value.samples
+        exact = in_fresh_process(ensemble, n, size.seeds, REFERENCE).value.samples
         for balance in BALANCES:
             for step in STEPS:
                 protocol = Compression(phi_step=step, intermediate_balance=balance)
-                done = apart(ensemble, n, size.seeds, protocol)
-                yield from _rows(done, exact, protocol, of(n, size))
+                done = in_fresh_process(ensemble, n, size.seeds, protocol)
+                yield from _rows(done, exact, protocol, size_suffix(n, size))
 
 
-def _rows(done: Apart, exact: np.ndarray, protocol: Compression, suffix: str) -> Iterator[Row]:
-    """The share of other packings and φ_J; everything at the default b."""
+def _rows(
+    done: ProcessResult, exact: np.ndarray, protocol: Compression, suffix: str
+) -> Iterator[DiagramRow]:
+    """The fraction of other packings and φ_J; all measures at the default b."""
     found, seconds = done.value
     counted = np.isfinite(found).all(axis=1) & np.isfinite(exact).all(axis=1)
     counts = int(counted.sum()), int((~counted).sum())
-    measures = ALL if protocol.intermediate_balance == SHIPPED.intermediate_balance else FEW
+    measures = (
+        MEASURES_AT_DEFAULT
+        if protocol.intermediate_balance == DEFAULT.intermediate_balance
+        else MEASURES
+    )
     for name, (measure, columns) in measures.items():
-        of_both = found[counted, columns], exact[counted, columns]
-        error = measure(*of_both) if counts[0] > 1 else (np.nan, np.nan)
+        both = found[counted, columns], exact[counted, columns]
+        error = measure(*both) if counts[0] > 1 else (np.nan, np.nan)
         curve = f"b = {protocol.intermediate_balance:g}, {name}{suffix}"
         point = protocol.phi_step, seconds, done.megabytes, *error
-        yield Row(curve, *point, *counts, protocol == SHIPPED)
+        yield DiagramRow(curve, *point, *counts, protocol == DEFAULT)
 
 
 def other_packings(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
-    """Share of the samples whose P (S,) is another one, and its standard error."""
-    share = float(np.mean(np.abs(found / exact - 1.0) > SAME))
+    """Fraction of the samples whose P (S,) differs, and its standard error."""
+    share = float(np.mean(np.abs(found / exact - 1.0) > PRESSURE_TOLERANCE))
     return share, float(np.sqrt(share * (1.0 - share) / len(found)))
 
 
 def shift_of_mean(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
-    """What the mean of x − x_ref may well be, and its standard error, both / σ; of (S,) samples."""
+    """Bound (m² + e²)^(1/2) of the mean of x − x_ref, and e, both / σ; of (S,) samples."""
     unit, difference = exact.std(ddof=1), found - exact
     error = difference.std(ddof=1) / np.sqrt(len(found))
     return float(np.hypot(difference.mean(), error) / unit), float(error / unit)
@@ -134,22 +146,22 @@ def shift_of_one(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
 
 
 def distance(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
-    """Kolmogorov–Smirnov distance of two samples (S,), and what equal ensembles scatter by."""
-    return float(ks_2samp(found, exact).statistic), float(EQUAL_ENSEMBLES / np.sqrt(len(found)))
+    """Kolmogorov–Smirnov distance of two samples (S,), and its scatter for equal ensembles."""
+    return float(ks_2samp(found, exact).statistic), float(KS_SCATTER / np.sqrt(len(found)))
 
 
-FEW = {
+MEASURES = {
     "other packings": (other_packings, P),
     r"mean $\phi_J$": (shift_of_mean, PHI_J),
     r"one $\phi_J$": (shift_of_one, PHI_J),
 }
-ALL = FEW | {
+MEASURES_AT_DEFAULT = MEASURES | {
     "mean P": (shift_of_mean, P),
     "mean Z": (shift_of_mean, Z),
     "mean G": (shift_of_mean, G),
     r"KS of $\phi_J$": (distance, PHI_J),
 }
-"""What is measured, and on which column."""
+"""Name → measure, and the column it is applied to."""
 
 DIAGRAM = Diagram(
     title="Compression step and intermediate balance, φ = 0.87",

@@ -1,11 +1,11 @@
-"""What a work-precision diagram is made of.
+"""Work-precision diagrams: the error that a numerical choice leaves against the CPU time it takes.
 
 A numerical choice is tried at many settings. Every setting is a point: CPU seconds to the right,
-error against a reference upwards. Along a curve time buys accuracy, until it buys no more: at
+error against a reference upwards. Along a curve more time gives a smaller error, up to
 
-    the knee, the cheapest setting whose error is within 3 times the least error of its curve,
+    the knee, the cheapest setting whose error is within 3 times the smallest error of its curve.
 
-where what lies below may well be round-off, which is as large at one setting as at the next.
+Smaller errors may well be round-off, which differs between settings by chance.
 """
 
 from __future__ import annotations
@@ -21,29 +21,29 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-WITHIN = 3.0
-"""Times the least error of a curve that the error of its knee may be."""
+KNEE_FACTOR = 3.0
+"""Largest error of the knee, in units of the smallest error of its curve."""
 
-PER_MEGABYTE = 2**20 if sys.platform == "darwin" else 2**10
-"""Units of `ru_maxrss`: bytes there, kilobytes elsewhere."""
+MAXRSS_PER_MEGABYTE = 2**20 if sys.platform == "darwin" else 2**10
+"""Units of `ru_maxrss` in a megabyte: bytes on macOS, kilobytes elsewhere."""
 
-STATUS = Path("/proc/self/status")
-"""Where Linux says what a process holds."""
+PROCESS_STATUS = Path("/proc/self/status")
+"""File in which Linux states the memory of a process."""
 
 
-class Row(NamedTuple):
+class DiagramRow(NamedTuple):
     """One setting of one curve.
 
     Attributes:
-        curve: its line, "who, what" where lines differ in two ways: "fast, error of g".
+        curve: its name, "method, quantity" where curves differ in both: "fast, error of g".
         setting: value of the numerical choice.
         seconds: CPU seconds per unit of work, mean or median over samples.
-        megabytes: peak resident memory of the process that did it.
+        megabytes: peak resident memory of the process that measured it.
         error: against the reference, mean or median over samples.
         spread: its standard error, or half the interquartile range over samples.
-        samples: samples that count.
-        failed: samples that came to no result at this setting.
-        default: whether the project ships with this setting.
+        samples: number of samples with a result.
+        failed: number of samples without a result at this setting.
+        default: whether this setting is the default of the project.
     """
 
     curve: str
@@ -58,21 +58,22 @@ class Row(NamedTuple):
 
 
 class Size(NamedTuple):
-    """Grains, and samples of each number of grains."""
+    """Numbers of grains, and the number of samples of each."""
 
     n: tuple[int, ...]
     seeds: int
 
 
-def of(n: int, size: Size) -> str:
-    """What a curve says of its number of grains, where there are several."""
+def size_suffix(n: int, size: Size) -> str:
+    """End of the name of a curve: its number of grains, if there are several."""
     return f", N = {n}" if len(size.n) > 1 else ""
 
 
 class Diagram(NamedTuple):
-    """A numerical choice; the words stand at axes and in the caption, `unit` says seconds of what.
+    """A numerical choice.
 
-    `small` takes minutes, `large` hours.
+    The texts are labels of axes and parts of the caption; `unit` is the work that the CPU seconds
+    are for. A measurement of size `small` takes minutes, of size `large` hours.
     """
 
     title: str
@@ -82,45 +83,47 @@ class Diagram(NamedTuple):
     reference: str
     small: Size
     large: Size
-    measure: Callable[[Size], Iterator[Row]]
+    measure: Callable[[Size], Iterator[DiagramRow]]
 
 
-def knee(rows: list[Row]) -> Row | None:
-    """The knee of one curve; None where no setting served all samples."""
+def knee(rows: list[DiagramRow]) -> DiagramRow | None:
+    """The knee of one curve; None where every setting failed in some sample."""
     served = [row for row in rows if row.failed == 0 and row.error < math.inf]
     if not served:
         return None
-    allowed = WITHIN * min(row.error for row in served)
+    allowed = KNEE_FACTOR * min(row.error for row in served)
     return min((row for row in served if row.error <= allowed), key=lambda row: row.seconds)
 
 
-class Sample(NamedTuple):
-    """CPU seconds and error of one sample; an error that is no number: it came to no result."""
+class TimedError(NamedTuple):
+    """CPU seconds and error of one sample; the error is NaN if the sample gave no result."""
 
     seconds: float
     error: float
 
 
-FAILED = Sample(math.nan, math.nan)
+FAILED = TimedError(math.nan, math.nan)
 
 
-def row(
+def summarise(
     curve: str,
     setting: float,
-    samples: list[Sample],
+    samples: list[TimedError],
     megabytes: float,
     default: bool = False,
     mean: bool = False,
-) -> Row:
-    """Medians over the samples that came to a result, NaN where none did.
+) -> DiagramRow:
+    """The row of a setting: medians over the samples with a result, NaN if there is none.
 
     Args:
-        mean: the error is a mean instead, and its spread the standard error.
+        mean: give the mean of the errors instead, and its standard error as spread.
     """
     seconds, errors = np.array([s for s in samples if not math.isnan(s.error)]).reshape(-1, 2).T
     error, spread = (_mean if mean else _median)(errors)
     counts = len(errors), len(samples) - len(errors)
-    return Row(curve, setting, _median(seconds)[0], megabytes, error, spread, *counts, default)
+    return DiagramRow(
+        curve, setting, _median(seconds)[0], megabytes, error, spread, *counts, default
+    )
 
 
 def _median(values: np.ndarray) -> tuple[float, float]:
@@ -138,7 +141,7 @@ def _mean(values: np.ndarray) -> tuple[float, float]:
     return float(values.mean()), float(values.std(ddof=1) / math.sqrt(len(values)))
 
 
-class Apart(NamedTuple):
+class ProcessResult(NamedTuple):
     """What a function returned, its CPU seconds, and the peak memory of its process."""
 
     value: Any
@@ -146,17 +149,17 @@ class Apart(NamedTuple):
     megabytes: float
 
 
-def apart(function: Callable, *arguments) -> Apart:
-    """A function of a module, called in a fresh process."""
+def in_fresh_process(function: Callable, *arguments) -> ProcessResult:
+    """Call a function of a module in a fresh process."""
     with get_context("spawn").Pool(1) as pool:
         return pool.apply(_called, (function, *arguments))
 
 
-def _called(function: Callable, *arguments) -> Apart:
+def _called(function: Callable, *arguments) -> ProcessResult:
     start = time.process_time()
     value = function(*arguments)
     seconds = time.process_time() - start
-    return Apart(value, seconds, peak_megabytes())
+    return ProcessResult(value, seconds, peak_megabytes())
 
 
 def peak_megabytes() -> float:
@@ -164,20 +167,20 @@ def peak_megabytes() -> float:
 
     On Linux `ru_maxrss` of a child includes what its parent held when it started the child.
     """
-    if STATUS.is_file():
-        lines = STATUS.read_text(encoding="utf-8").splitlines()
+    if PROCESS_STATUS.is_file():
+        lines = PROCESS_STATUS.read_text(encoding="utf-8").splitlines()
         return next(int(line.split()[1]) for line in lines if line.startswith("VmHWM")) / 2**10
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / PER_MEGABYTE
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / MAXRSS_PER_MEGABYTE
 
 
-LEAST = 0.02
-"""CPU seconds for which a short call is repeated, to be seen by the clock."""
+MIN_CPU_SECONDS = 0.02
+"""CPU seconds for which a short call is repeated, so that the clock can measure it."""
 
 
-def timed(function: Callable, *arguments, at_least: float = LEAST) -> tuple[Any, float]:
+def timed(function: Callable, *arguments, at_least: float = MIN_CPU_SECONDS) -> tuple[Any, float]:
     """What a function returned, and its CPU seconds: the mean of calls for `at_least` seconds.
 
-    Where kernels are compiled or loaded first, call it once on little.
+    Call the function once on few grains before, so that its kernels are compiled and loaded.
     """
     start, calls, seconds = time.process_time(), 0, 0.0
     while calls == 0 or seconds < at_least:

@@ -34,13 +34,23 @@ from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import Eigenproblem
 from grainmodes.stages.rows import SAMPLE_ERRORS
 from grainmodes.statistics.averages import TRANSLATIONS
-from measurements.accuracy.diagram import FAILED, Diagram, Row, Sample, Size, apart, of, row, timed
+from measurements.accuracy.diagram import (
+    FAILED,
+    Diagram,
+    DiagramRow,
+    Size,
+    TimedError,
+    in_fresh_process,
+    size_suffix,
+    summarise,
+    timed,
+)
 from measurements.accuracy.packings import HERTZ, compressed
 
 PHI, STEP, INTERACTION = 0.85, 1e-3, Interaction.from_law(ContactLaw(kt=1.0))
 """φ of the balance, the step that led to it, and the law of its response, k_T = k_N."""
 
-SHIPPED = Compression()
+DEFAULT = Compression()
 TOLERANCES = tuple(10.0**-k for k in range(4, 18))
 
 RELAXATIONS = {"FIRE": relax_fire, "fast": relax_fire_newton}
@@ -48,91 +58,93 @@ RELAXATIONS = {"FIRE": relax_fire, "fast": relax_fire_newton}
 CONTACTS = "of the contacts"
 QUANTITIES = ("of g", "of the ten lowest eigenvalues", CONTACTS)
 
-LOWEST = 10
+N_EIGENVALUES = 10
 
-MOST = 100_000
-"""Iterations after which F_Th counts as out of reach: several times what 1e-14 takes."""
+MAX_ITERATIONS = 100_000
+"""Iterations after which a relaxation has failed: several times as many as 1e-14 takes."""
 
-POLISHING = 20
-"""Newton steps after which its balance cannot fall further."""
+MAX_NEWTON_STEPS = 20
+"""Newton steps after which max|F| cannot fall further."""
 
 
-class Answers(NamedTuple):
-    """What is asked of a balance: g, its lowest eigenvalues (10,), its contacts as pairs (i, j)."""
+class Response(NamedTuple):
+    """g of a balance, its lowest eigenvalues (10,), its contacts as pairs (i, j)."""
 
     g: float
     eigenvalues: np.ndarray
     contacts: set[tuple[int, int]]
 
-    def errors(self, exact: Answers) -> tuple[float, float, float]:
+    def errors(self, exact: Response) -> tuple[float, float, float]:
         """The errors of `QUANTITIES`."""
         off = np.abs(self.eigenvalues - exact.eigenvalues) / np.abs(exact.eigenvalues)
         differing = len(self.contacts ^ exact.contacts) / len(exact.contacts)
         return abs(self.g / exact.g - 1.0), float(off.max()), differing
 
 
-def answers(packing: Packing) -> Answers:
-    """The answers of a packing, without its rattlers."""
+def find_response(packing: Packing) -> Response:
+    """The response of a packing without its rattlers."""
     matrix = Eigenproblem.from_packing(packing, INTERACTION).matrix.toarray()
     values = scipy.linalg.eigvalsh(matrix)
     values = values[np.argsort(np.abs(values))][TRANSLATIONS:]
     g = rigidity(packing, INTERACTION).unloaded.g
-    return Answers(g, np.sort(values[:LOWEST]), contacts_of(packing))
+    return Response(g, np.sort(values[:N_EIGENVALUES]), backbone_contacts(packing))
 
 
-def contacts_of(packing: Packing) -> set[tuple[int, int]]:
-    """The contacts between grains that are no rattlers, in the numbers of all."""
+def backbone_contacts(packing: Packing) -> set[tuple[int, int]]:
+    """The contacts between grains that are not rattlers, numbered as among all grains."""
     contacts = find_contacts(packing)
     gone = rattlers(contacts, packing.n, threshold=2)
     held = ~(gone[contacts.i] | gone[contacts.j])
     return set(zip(contacts.i[held].tolist(), contacts.j[held].tolist(), strict=True))
 
 
-def reference(relax: Callable, packing: Packing) -> Answers:
-    """The answers of the balance that a relaxation leads to."""
-    balance = relax(packing, HERTZ, SHIPPED.force_tolerance, MOST).packing
+def reference(relax: Callable, packing: Packing) -> Response:
+    """The response of the balance that a relaxation leads to."""
+    balance = relax(packing, HERTZ, DEFAULT.force_tolerance, MAX_ITERATIONS).packing
     gone = rattlers(find_contacts(balance), balance.n, threshold=2)
     interaction = Interaction(HERTZ, Frictionless())
     fraction = balance.fraction.copy()
-    solved = newton(balance.without(gone), interaction, 0.0, POLISHING)
+    solved = newton(balance.without(gone), interaction, 0.0, MAX_NEWTON_STEPS)
     fraction[:, ~gone] = solved.packing.fraction
-    return answers(replace(balance, fraction=fraction))
+    return find_response(replace(balance, fraction=fraction))
 
 
-def measure(size: Size) -> Iterator[Row]:
+def measure(size: Size) -> Iterator[DiagramRow]:
     """Three rows for every relaxation and F_Th, one per quantity."""
     for n in size.n:
         packings = [compressed(n, seed, PHI - STEP).at(PHI) for seed in range(size.seeds)]
         for name, relax in RELAXATIONS.items():
             exact = [reference(relax, packing) for packing in packings]
             for tolerance in TOLERANCES:
-                done = apart(sampled, name, tolerance, packings, exact)
-                default = (name, tolerance) == (SHIPPED.relaxation, SHIPPED.force_tolerance)
+                done = in_fresh_process(timed_errors, name, tolerance, packings, exact)
+                default = (name, tolerance) == (DEFAULT.relaxation, DEFAULT.force_tolerance)
                 for what, samples in zip(QUANTITIES, done.value, strict=True):
-                    curve = f"{name}, {what}{of(n, size)}"
+                    curve = f"{name}, {what}{size_suffix(n, size)}"
                     mean = what == CONTACTS
-                    yield row(curve, tolerance, samples, done.megabytes, default, mean)
+                    yield summarise(curve, tolerance, samples, done.megabytes, default, mean)
 
 
-def sampled(
-    name: str, tolerance: float, packings: list[Packing], exact: list[Answers]
-) -> list[tuple[Sample, ...]]:
+def timed_errors(
+    name: str, tolerance: float, packings: list[Packing], exact: list[Response]
+) -> list[tuple[TimedError, ...]]:
     """The samples of every quantity."""
     relax = RELAXATIONS[name]
-    relax(packings[0], HERTZ, max(TOLERANCES), MOST)
-    samples = [_samples(relax, tolerance, *of) for of in zip(packings, exact, strict=True)]
+    relax(packings[0], HERTZ, max(TOLERANCES), MAX_ITERATIONS)
+    samples = [_timed_errors(relax, tolerance, *pair) for pair in zip(packings, exact, strict=True)]
     return list(zip(*samples, strict=True))
 
 
-def _samples(relax: Callable, tolerance: float, packing: Packing, exact: Answers) -> list[Sample]:
-    relaxed, seconds = timed(relax, packing, HERTZ, tolerance, MOST)
+def _timed_errors(
+    relax: Callable, tolerance: float, packing: Packing, exact: Response
+) -> list[TimedError]:
+    relaxed, seconds = timed(relax, packing, HERTZ, tolerance, MAX_ITERATIONS)
     try:
-        errors = answers(relaxed.packing).errors(exact)
+        errors = find_response(relaxed.packing).errors(exact)
     except SAMPLE_ERRORS:
         errors = ()
     if not (errors and relaxed.converged):
         return [FAILED] * len(QUANTITIES)
-    return [Sample(seconds, error) for error in errors]
+    return [TimedError(seconds, error) for error in errors]
 
 
 DIAGRAM = Diagram(

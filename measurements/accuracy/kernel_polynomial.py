@@ -1,4 +1,4 @@
-"""The kernel polynomial method: integrated densities from random vectors. Not taken; measured only.
+"""The kernel polynomial method: integrated densities from random vectors. Only measured, not used.
 
 With λ = c + a x, |x| < 1, Chebyshev polynomials T_m, and random vectors z of signs ±1,
 
@@ -17,11 +17,11 @@ import numpy as np
 
 from grainmodes.spectrum.eigenproblem import Eigenproblem
 
-VECTORS = 32
-"""Random vectors."""
+N_VECTORS = 32
+"""Number of random vectors."""
 
 MARGIN = 0.01
-"""Room beside the spectrum, in its width."""
+"""Margin of the interval on either side of the spectrum, in units of its width."""
 
 
 class Moments(NamedTuple):
@@ -34,10 +34,10 @@ class Moments(NamedTuple):
 
 
 def moments(eigenproblem: Eigenproblem, count: int, seed: int = 0) -> Moments:
-    """The first `count` moments of a symmetric J, estimated by `VECTORS` vectors."""
+    """The first `count` moments of a symmetric J, estimated by `N_VECTORS` vectors."""
     low, high = -MARGIN * eigenproblem.bound, (1.0 + MARGIN) * eigenproblem.bound
     centre, half = 0.5 * (high + low), 0.5 * (high - low)
-    z = np.random.default_rng(seed).choice([-1.0, 1.0], (eigenproblem.size, VECTORS))
+    z = np.random.default_rng(seed).choice([-1.0, 1.0], (eigenproblem.size, N_VECTORS))
     rotation = np.arange(eigenproblem.size) % eigenproblem.k == 2
     found = np.empty((2, count))
     before, now = (eigenproblem.matrix @ z - centre * z) / half, z
@@ -46,7 +46,7 @@ def moments(eigenproblem: Eigenproblem, count: int, seed: int = 0) -> Moments:
         found[:, m] = weight.sum(), weight[rotation].sum()
         ahead = 2.0 / half * (eigenproblem.matrix @ now - centre * now) - before
         before, now = now, ahead
-    return Moments(*found / VECTORS, low, high)
+    return Moments(*found / N_VECTORS, low, high)
 
 
 def jackson(count: int) -> np.ndarray:
@@ -55,9 +55,9 @@ def jackson(count: int) -> np.ndarray:
     return ((count - m + 1) * np.cos(m * q) + np.sin(m * q) / np.tan(q)) / (count + 1)
 
 
-def below(mu: np.ndarray, of: Moments, eigenvalue: np.ndarray) -> np.ndarray:
+def below(mu: np.ndarray, moments: Moments, eigenvalue: np.ndarray) -> np.ndarray:
     """N(λ) from the moments `mu` (K,), all or rotational, at λ (E,); (E,) float."""
-    x = (2.0 * eigenvalue - of.low - of.high) / (of.high - of.low)
+    x = (2.0 * eigenvalue - moments.low - moments.high) / (moments.high - moments.low)
     theta = np.arccos(np.clip(x, -1.0, 1.0))
     m = np.arange(1, len(mu))
     weight = (jackson(len(mu)) * mu)[1:] / m

@@ -83,7 +83,7 @@ def descent(overlap: type, force: type) -> Callable:
     return descend
 
 
-def descended(packing: Packing, precision: Precision, steps: int) -> tuple[Packing, np.ndarray]:
+def after_fire(packing: Packing, precision: Precision, steps: int) -> tuple[Packing, np.ndarray]:
     """The packing after steps of FIRE, and the forces on it as the loop sees them, (N, 2)."""
     x, y = packing.fraction.copy()
     pairs = find_neighbours(x, y, packing.diameter, packing.box_length, 0.0, SKIN)
@@ -114,7 +114,7 @@ def exact_forces(packing: Packing) -> np.ndarray:
     return total
 
 
-def moved(packing: Packing, force: type, steps: int) -> Packing:
+def after_dynamics(packing: Packing, force: type, steps: int) -> Packing:
     """The packing after steps of damped dynamics from rest, its state kept in this type."""
     x, y = packing.fraction.copy()
     state, mass = np.zeros((7, packing.n), force), packing.mass.astype(force)

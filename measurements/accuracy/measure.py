@@ -1,4 +1,4 @@
-"""Measure a work-precision diagram: `measure.py strain_step --size small -o strain_step.csv`."""
+"""Measure a diagram: `python -m measurements.accuracy.measure strain_step --size small -o FILE`."""
 
 from __future__ import annotations
 
@@ -7,32 +7,32 @@ import sys
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from grainmodes.runtime.environment import prepare
+from measurements.accuracy import NAMES
 
-# Inherited by the processes that measure, and before they import a library that counts threads.
-prepare()
-
-from measurements.accuracy import NAMES  # noqa: E402
-from measurements.accuracy.diagram import Row  # noqa: E402
+if TYPE_CHECKING:
+    from measurements.accuracy.diagram import DiagramRow
 
 SIZES = ("small", "large")
 
 
 def measured(name: str, size: str, output: Path) -> None:
-    """Measure a diagram and write its table; every row is printed as it comes.
+    """Measure a diagram and write its table; every row is printed as soon as it is measured.
 
     Raises:
         OSError: the table cannot be written.
     """
+    prepare()  # for the processes that measure, and before numpy is imported here
     from measurements.accuracy.table import table_of, write
 
     diagram = import_module(f"measurements.accuracy.{name}").DIAGRAM
     grains = getattr(diagram, size)
-    write(output, table_of(diagram, grains, list(_said(diagram.measure(grains)))))
+    write(output, table_of(diagram, grains, list(_print_rows(diagram.measure(grains)))))
 
 
-def _said(rows: Iterator[Row]) -> Iterator[Row]:
+def _print_rows(rows: Iterator[DiagramRow]) -> Iterator[DiagramRow]:
     for row in rows:
         cost = f"{row.seconds:9.2e} s {row.megabytes:6.0f} MB"
         kept = f"{row.samples} samples, {row.failed} failed{', default' * row.default}"
@@ -42,7 +42,7 @@ def _said(rows: Iterator[Row]) -> Iterator[Row]:
 
 
 def main() -> int:
-    """Read the command line; 0, or 1 where the file cannot be written."""
+    """Read the command line; returns 0, or 1 where the file cannot be written."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("name", choices=NAMES)
     parser.add_argument("--size", choices=SIZES, default="small", help="minutes, or hours")

@@ -35,27 +35,36 @@ from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import forward_rigidity
 from grainmodes.response.moduli import rigidity
 from grainmodes.stages.samples import is_jammed
-from measurements.accuracy.diagram import Diagram, Row, Sample, Size, apart, of, row, timed
-from measurements.accuracy.loops import ROUGH, Precision, descended, exact_forces, moved
+from measurements.accuracy.diagram import (
+    Diagram,
+    DiagramRow,
+    Size,
+    TimedError,
+    in_fresh_process,
+    size_suffix,
+    summarise,
+    timed,
+)
+from measurements.accuracy.loops import ROUGH, Precision, after_dynamics, after_fire, exact_forces
 from measurements.accuracy.packings import HERTZ, compressed
 
-DENSE, LOOSE = 0.9, 0.85
+PHI_DENSE, PHI_NEAR_JAMMING = 0.9, 0.85
 """φ far from jamming and near it, where overlaps are small."""
 
 SMOOTH = Interaction(HERTZ, Frictionless())
 
-AWAY = 1e-6
+START_DISPLACEMENT = 1e-6
 """Random displacement from a balance in d, at which FIRE starts."""
 
 STRAIN = 1e-4
 """Step strain after which dynamics relaxes."""
 
-STEPS = 50_000
-"""Steps to the floor."""
+N_STEPS = 50_000
+"""Steps after which max|F| no longer falls."""
 
 
 class Errors(NamedTuple):
-    """CPU seconds of 10⁹ grain steps, and the errors; `forces` NaN where they are not looked at."""
+    """CPU seconds of 10⁹ grain steps, and the errors; `forces` is NaN where it is not measured."""
 
     seconds: float
     forces: float
@@ -63,21 +72,23 @@ class Errors(NamedTuple):
     g: float
 
 
-def of_fire(packing: Packing, precision: Precision) -> Errors:
-    """FIRE from a little beside a balance back to it."""
-    beside = packing.displaced(AWAY * np.random.default_rng(0).standard_normal((packing.n, 2)))
+def fire_errors(packing: Packing, precision: Precision) -> Errors:
+    """Errors of FIRE that returns to a balance from a small random displacement."""
+    beside = packing.displaced(
+        START_DISPLACEMENT * np.random.default_rng(0).standard_normal((packing.n, 2))
+    )
     unit = mean_contact_force(find_contacts(packing), SMOOTH)
-    _, seen = descended(beside, precision, 0)
+    _, seen = after_fire(beside, precision, 0)
     wrong = np.sqrt(np.mean((seen - exact_forces(beside)) ** 2))
-    (after, _), seconds = timed(descended, beside, precision, STEPS)
+    (after, _), seconds = timed(after_fire, beside, precision, N_STEPS)
     exact, found = (rigidity(state, ROUGH).unloaded.g for state in (packing, after))
     return _errors(seconds, wrong / unit, residual(after, SMOOTH) / unit, found / exact, packing.n)
 
 
-def of_dynamics(packing: Packing, precision: Precision) -> Errors:
-    """Damped dynamics after a step strain, as A simulates g."""
+def dynamics_errors(packing: Packing, precision: Precision) -> Errors:
+    """Errors of damped dynamics after a step strain, as A simulates g."""
     unit = mean_contact_force(find_contacts(packing), SMOOTH)
-    after, seconds = timed(moved, packing.sheared(STRAIN), precision.force, STEPS)
+    after, seconds = timed(after_dynamics, packing.sheared(STRAIN), precision.force, N_STEPS)
     exact = forward_rigidity(packing, ROUGH, StepStrain(strain=STRAIN))
     before, strained = (stress(p, find_contacts(p), ROUGH)[0, 1] for p in (packing, after))
     found = (strained - before) / STRAIN
@@ -85,7 +96,7 @@ def of_dynamics(packing: Packing, precision: Precision) -> Errors:
 
 
 def _errors(seconds: float, forces: float, floor: float, ratio: float, n: int) -> Errors:
-    return Errors(seconds / (STEPS * n) * 1e9, float(forces), floor, abs(ratio - 1.0))
+    return Errors(seconds / (N_STEPS * n) * 1e9, float(forces), floor, abs(ratio - 1.0))
 
 
 def residual(packing: Packing, interaction: Interaction) -> float:
@@ -97,45 +108,45 @@ SINGLE, DOUBLE = Precision(np.float32, np.float32), Precision(np.float64, np.flo
 MIXED = Precision(np.float64, np.float32)
 
 
-class Way(NamedTuple):
-    """A loop to try, at which φ, in which precisions, and what is looked at."""
+class LoopTest(NamedTuple):
+    """A loop to try, at which φ, in which precisions, and which errors are shown."""
 
     errors: Callable[[Packing, Precision], Errors]
     phi: float
     precisions: tuple[Precision, ...]
-    looked_at: tuple[str, ...]
+    quantities: tuple[str, ...]
 
 
-ALL = ("forces", "floor", "g")
-NAMES = {"forces": "forces", "floor": "max|F|", "g": "g"}
-WAYS = {
-    "FIRE": Way(of_fire, DENSE, (SINGLE, DOUBLE), ALL),
-    "FIRE near jamming": Way(of_fire, LOOSE, (SINGLE, DOUBLE), ALL),
-    "FIRE with double overlaps": Way(of_fire, DENSE, (MIXED,), ALL),
-    "dynamics": Way(of_dynamics, DENSE, (SINGLE, DOUBLE), ("floor", "g")),
+ALL_QUANTITIES = ("forces", "floor", "g")
+QUANTITY_NAMES = {"forces": "forces", "floor": "max|F|", "g": "g"}
+LOOP_TESTS = {
+    "FIRE": LoopTest(fire_errors, PHI_DENSE, (SINGLE, DOUBLE), ALL_QUANTITIES),
+    "FIRE near jamming": LoopTest(fire_errors, PHI_NEAR_JAMMING, (SINGLE, DOUBLE), ALL_QUANTITIES),
+    "FIRE with double overlaps": LoopTest(fire_errors, PHI_DENSE, (MIXED,), ALL_QUANTITIES),
+    "dynamics": LoopTest(dynamics_errors, PHI_DENSE, (SINGLE, DOUBLE), ("floor", "g")),
 }
 
 
-def measure(size: Size) -> Iterator[Row]:
+def measure(size: Size) -> Iterator[DiagramRow]:
     """The errors of every loop in every precision."""
     for n in size.n:
-        for name, way in WAYS.items():
-            for precision in way.precisions:
-                done = apart(sampled, name, precision, n, size.seeds)
-                for what in way.looked_at:
-                    samples = [Sample(e.seconds, getattr(e, what)) for e in done.value]
-                    curve = f"{name}, {NAMES[what]}{of(n, size)}"
+        for name, loop in LOOP_TESTS.items():
+            for precision in loop.precisions:
+                done = in_fresh_process(errors_of_packings, name, precision, n, size.seeds)
+                for what in loop.quantities:
+                    samples = [TimedError(e.seconds, getattr(e, what)) for e in done.value]
+                    curve = f"{name}, {QUANTITY_NAMES[what]}{size_suffix(n, size)}"
                     default = precision == DOUBLE
-                    yield row(curve, precision.bits, samples, done.megabytes, default)
+                    yield summarise(curve, precision.bits, samples, done.megabytes, default)
 
 
-def sampled(name: str, precision: Precision, n: int, seeds: int) -> list[Errors]:
+def errors_of_packings(name: str, precision: Precision, n: int, seeds: int) -> list[Errors]:
     """The errors of every packing; NaN where it is not jammed."""
-    way = WAYS[name]
-    packings = [compressed(n, seed, way.phi) for seed in range(seeds)]
-    way.errors(packings[0], precision)
+    loop = LOOP_TESTS[name]
+    packings = [compressed(n, seed, loop.phi) for seed in range(seeds)]
+    loop.errors(packings[0], precision)
     return [
-        way.errors(packing, precision) if jammed(packing) else Errors(*[math.nan] * 4)
+        loop.errors(packing, precision) if jammed(packing) else Errors(*[math.nan] * 4)
         for packing in packings
     ]
 

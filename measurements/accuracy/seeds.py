@@ -1,4 +1,4 @@
-"""Number of seeds: how sure the ensemble averages of G and of D(ω) are.
+"""Number of seeds: how accurate the ensemble averages of G and of D(ω) are.
 
 S seeds give a mean x̄ with a standard error s/S^(1/2) (`statistics`), as long as the samples are
 independent and the distribution is not too broad. An ensemble of T seeds is cut into groups of S:
@@ -6,9 +6,9 @@ independent and the distribution is not too broad. An ensemble of T seeds is cut
     found     root mean square over groups of x̄_group − x̄_others
     stated    root mean square over groups of the standard error that a group states for itself
 
-both relative to the mean of all. Where the two agree, error bars mean what they say. D(ω) is that
-of
-the bins in which an average spectrum has a mode or more; the median of these bins is shown.
+both relative to the mean of all. Where the two agree, error bars mean what they say. D(ω) is
+considered in the bins in which an average spectrum has at least one mode; the median of these bins
+is shown.
 
 Reference: x̄_others, the T − S seeds of all other groups, S ≤ T/4, whose own error adds at most a
 sixth.
@@ -28,42 +28,44 @@ from grainmodes.spectrum import Eigenproblem, average_in_bins
 from grainmodes.stages.rows import SAMPLE_ERRORS
 from grainmodes.statistics.averages import average
 from grainmodes.statistics.binning import fixed_edges
-from measurements.accuracy.diagram import Diagram, Row, Size, apart, of
+from measurements.accuracy.diagram import Diagram, DiagramRow, Size, in_fresh_process, size_suffix
 from measurements.accuracy.packings import compressed
 
 PHI, KAPPA = 0.9, 1e-4
 INTERACTION = Interaction.from_law(ContactLaw(kt=KAPPA))
 
-SHIPPED = 8
+DEFAULT_SEEDS = 8
 """Seeds of the scene in config/default.yaml."""
 
-GROUPS = 4
-"""Least number of groups."""
+MIN_GROUPS = 4
+"""Smallest number of groups."""
 
-OCCUPIED = 1.0
-"""Modes of an average spectrum in a bin that counts."""
+MIN_MODES_PER_BIN = 1.0
+"""Smallest mean number of modes in a bin that is considered."""
 
 
-def measure(size: Size) -> Iterator[Row]:
+def measure(size: Size) -> Iterator[DiagramRow]:
     """Errors of ensembles of 2, 4, 8 … seeds, to a quarter of all."""
     for n in size.n:
-        done = apart(ensemble, n, size.seeds)
+        done = in_fresh_process(ensemble, n, size.seeds)
         found = done.value[np.isfinite(done.value).all(axis=1)]
         failed = len(done.value) - len(found)
         cost = done.seconds / len(done.value)
-        occupied = np.append(True, found[:, 1:].mean(axis=0) >= OCCUPIED)
-        for seeds in sizes(len(found)):
+        occupied = np.append(True, found[:, 1:].mean(axis=0) >= MIN_MODES_PER_BIN)
+        for seeds in ensemble_sizes(len(found)):
             errors = errors_of_means(found[:, occupied], seeds)
             for name, (g, *density) in zip(("found", "stated"), errors, strict=True):
                 for what, error in (("G", g), (r"$D(\omega)$", np.median(density, axis=0))):
-                    curve = f"{name}, {what}{of(n, size)}"
+                    curve = f"{name}, {what}{size_suffix(n, size)}"
                     point = seeds * cost, done.megabytes, *map(float, error)
-                    yield Row(curve, seeds, *point, len(found), failed, seeds == SHIPPED)
+                    yield DiagramRow(
+                        curve, seeds, *point, len(found), failed, seeds == DEFAULT_SEEDS
+                    )
 
 
-def sizes(total: int) -> list[int]:
-    """2, 4, 8 … up to `total` / `GROUPS`."""
-    return [2**k for k in range(1, 64) if GROUPS * 2**k <= total]
+def ensemble_sizes(total: int) -> list[int]:
+    """2, 4, 8 … up to `total` / `MIN_GROUPS`."""
+    return [2**k for k in range(1, 64) if MIN_GROUPS * 2**k <= total]
 
 
 def ensemble(n: int, seeds: int) -> np.ndarray:
@@ -96,8 +98,8 @@ def errors_of_means(samples: np.ndarray, seeds: int) -> tuple[np.ndarray, np.nda
     parts = samples[: groups * seeds].reshape(groups, seeds, -1)
     mean, error, _ = average(np.moveaxis(parts, 1, 2), np.ones((groups, 1, seeds), bool))
     others = (samples.sum(axis=0) - seeds * mean) / (len(samples) - seeds)
-    of_all = samples.mean(axis=0)
-    return tuple(_root_mean_square(x / of_all) for x in (mean - others, error))
+    mean_of_all = samples.mean(axis=0)
+    return tuple(_root_mean_square(x / mean_of_all) for x in (mean - others, error))
 
 
 def _root_mean_square(values: np.ndarray) -> np.ndarray:

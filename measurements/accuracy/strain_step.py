@@ -3,10 +3,11 @@
     g_forward = [σ_xy(Δγ) − σ_xy(0)] / Δγ = g + g' Δγ/2 + …               A (14)–(16)
     g_both    = [σ_xy(Δγ) − σ_xy(−Δγ)] / 2Δγ = g + O(Δγ²)
 
-The larger Δγ, the more is cut off, and the sooner a contact opens or closes; the smaller, the more
-weighs what the balance left over, about F_Th / Δγ, and the rounding of σ, 1e-16 σ / Δγ. A claims a
+The larger Δγ, the larger is the truncation error, and the sooner a contact opens or closes; the
+smaller Δγ, the larger are the errors of the residual forces, about F_Th / Δγ, and of the rounding
+of σ, 1e-16 σ / Δγ. A claims a
 plateau, no dependence on Δγ for 1e-6 … 1e-4. A relaxes by damped dynamics, here Newton's method
-does, which overshoots its F_Th: the last step squares the error. The shipped rule starts at Δγ and
+does, which overshoots its F_Th: the last step squares the error. The default rule starts at Δγ and
 divides it by ten until two sizes agree to 1e-6 (`protocols.step_strain`).
 
 Reference: g by linear response, one solve with J in the same state (`rigidity`).
@@ -26,7 +27,17 @@ from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import forward_rigidity, relaxed_steps, step_strain
 from grainmodes.response.moduli import rigidity
 from grainmodes.stages.rows import SAMPLE_ERRORS
-from measurements.accuracy.diagram import FAILED, Diagram, Row, Sample, Size, apart, of, row, timed
+from measurements.accuracy.diagram import (
+    FAILED,
+    Diagram,
+    DiagramRow,
+    Size,
+    TimedError,
+    in_fresh_process,
+    size_suffix,
+    summarise,
+    timed,
+)
 from measurements.accuracy.packings import compressed
 
 PHI, INTERACTION = 0.9, Interaction.from_law(ContactLaw(kt=1.0))
@@ -35,7 +46,7 @@ PHI, INTERACTION = 0.9, Interaction.from_law(ContactLaw(kt=1.0))
 STRAINS = tuple(10.0**-k for k in range(2, 10))
 
 
-class Way(NamedTuple):
+class Method(NamedTuple):
     """How g is found, and how a step is relaxed."""
 
     find: Callable[[Packing, StepStrain], float]
@@ -57,7 +68,7 @@ def both_sides(packing: Packing, protocol: StepStrain) -> float:
 
 
 def shrinking(packing: Packing, protocol: StepStrain) -> float:
-    """g by the shipped rule, whose first step is Δγ."""
+    """g by the default rule, whose first step is Δγ."""
     found = step_strain(packing, INTERACTION, protocol)
     if not found.converged:
         raise ArithmeticError(f"max|F| = {found.max_force:.1e}")
@@ -65,42 +76,42 @@ def shrinking(packing: Packing, protocol: StepStrain) -> float:
 
 
 DAMPED = StepStrain(relaxation="damped", max_steps=2_000_000)
-WAYS = {
-    "damped to 1e-14, forward": Way(forward, DAMPED),
-    "damped to 1e-10, forward": Way(forward, replace(DAMPED, force_tolerance=1e-10)),
-    "Newton, forward": Way(forward, StepStrain()),
-    "Newton, both sides": Way(both_sides, StepStrain()),
-    "Newton, both sides, until two sizes agree": Way(shrinking, StepStrain()),
+METHODS = {
+    "damped to 1e-14, forward": Method(forward, DAMPED),
+    "damped to 1e-10, forward": Method(forward, replace(DAMPED, force_tolerance=1e-10)),
+    "Newton, forward": Method(forward, StepStrain()),
+    "Newton, both sides": Method(both_sides, StepStrain()),
+    "Newton, both sides, until two sizes agree": Method(shrinking, StepStrain()),
 }
-SHIPPED = "Newton, both sides, until two sizes agree", StepStrain().strain
+DEFAULT = "Newton, both sides, until two sizes agree", StepStrain().strain
 
 
-def measure(size: Size) -> Iterator[Row]:
-    """A row for every way and Δγ."""
+def measure(size: Size) -> Iterator[DiagramRow]:
+    """A row for every method and Δγ."""
     for n in size.n:
         packings = [compressed(n, seed, PHI) for seed in range(size.seeds)]
-        for name in WAYS:
+        for name in METHODS:
             for strain in STRAINS:
-                done = apart(sampled, name, strain, packings)
-                default = (name, strain) == SHIPPED
-                yield row(f"{name}{of(n, size)}", strain, *done[::2], default)
+                done = in_fresh_process(timed_errors, name, strain, packings)
+                default = (name, strain) == DEFAULT
+                yield summarise(f"{name}{size_suffix(n, size)}", strain, *done[::2], default)
 
 
-def sampled(name: str, strain: float, packings: list[Packing]) -> list[Sample]:
+def timed_errors(name: str, strain: float, packings: list[Packing]) -> list[TimedError]:
     """The error of g of every packing."""
-    way = WAYS[name]
-    protocol = replace(way.protocol, strain=strain)
-    way.find(packings[0], protocol)
-    return [_sample(way.find, packing, protocol) for packing in packings]
+    method = METHODS[name]
+    protocol = replace(method.protocol, strain=strain)
+    method.find(packings[0], protocol)
+    return [_timed_error(method.find, packing, protocol) for packing in packings]
 
 
-def _sample(find: Callable, packing: Packing, protocol: StepStrain) -> Sample:
+def _timed_error(find: Callable, packing: Packing, protocol: StepStrain) -> TimedError:
     exact = rigidity(packing, INTERACTION).unloaded.g
     try:
         g, seconds = timed(find, packing, protocol)
     except SAMPLE_ERRORS:
         return FAILED
-    return Sample(seconds, abs(g / exact - 1.0))
+    return TimedError(seconds, abs(g / exact - 1.0))
 
 
 DIAGRAM = Diagram(

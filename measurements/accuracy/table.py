@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import platform
-from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,7 +14,8 @@ import scipy
 
 from grainmodes.runtime.atomic import replaced
 from grainmodes.runtime.provenance import code_version
-from measurements.accuracy.diagram import Diagram, Row, Size
+from measurements.accuracy.diagram import Diagram, DiagramRow, Size
+from measurements.machine import default_factorisation, processor_model
 
 WORDS = ("title", "grains", "setting", "unit", "error", "reference", "machine", "code")
 """Keys of the comment on top."""
@@ -32,24 +32,18 @@ def machine() -> str:
     """Processor, cores and the libraries that matter."""
     versions = {"numpy": np, "scipy": scipy, "numba": numba}
     libraries = [f"{name} {module.__version__}" for name, module in versions.items()]
-    factors = "PARDISO" if find_spec("pypardiso") else "SuperLU"
     python = f"Python {platform.python_version()}"
-    return ", ".join([f"{_processor()}, {os.cpu_count()} cores", python, *libraries, factors])
+    processor = processor_model() or platform.processor() or platform.machine()
+    cores = f"{processor}, {os.cpu_count()} cores"
+    return ", ".join([cores, python, *libraries, default_factorisation()])
 
 
-def _processor() -> str:
-    known = Path("/proc/cpuinfo")
-    lines = known.read_text(encoding="utf-8").splitlines() if known.is_file() else []
-    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    return models[0] if models else platform.processor() or platform.machine()
-
-
-def table_of(diagram: Diagram, size: Size, rows: list[Row]) -> Table:
+def table_of(diagram: Diagram, size: Size, rows: list[DiagramRow]) -> Table:
     """What was measured here and now."""
     words = {name: getattr(diagram, name) for name in WORDS if hasattr(diagram, name)}
     words |= {"grains": ", ".join(map(str, size.n))}
     words |= {"machine": machine(), "code": code_version()}
-    return Table(words, pd.DataFrame(rows, columns=list(Row._fields)))
+    return Table(words, pd.DataFrame(rows, columns=list(DiagramRow._fields)))
 
 
 def write(path: Path, table: Table) -> None:
@@ -79,16 +73,17 @@ def read(path: Path) -> Table:
             f"{path}: expected a file of measure.py, got no {', '.join(missing)} in its head"
         )
     rows = pd.read_csv(path, comment="#")
-    if list(rows.columns) != list(Row._fields):
+    if list(rows.columns) != list(DiagramRow._fields):
         raise ValueError(
-            f"{path}: expected the columns {', '.join(Row._fields)}, got {', '.join(rows.columns)}"
+            f"{path}: expected the columns {', '.join(DiagramRow._fields)}, "
+            f"got {', '.join(rows.columns)}"
         )
     return Table(words, rows)
 
 
-def curves(table: Table) -> dict[str, list[Row]]:
+def curves(table: Table) -> dict[str, list[DiagramRow]]:
     """The rows of every curve, in the order of the file."""
-    rows = [Row(*values) for values in table.rows.itertuples(index=False)]
+    rows = [DiagramRow(*values) for values in table.rows.itertuples(index=False)]
     return {
         name: [row for row in rows if row.curve == name] for name in table.rows["curve"].unique()
     }

@@ -34,8 +34,18 @@ from grainmodes.parameters.release import Release
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.relaxation.dynamics import Motion, move
 from grainmodes.stages.rows import SAMPLE_ERRORS
-from measurements.accuracy.diagram import FAILED, Diagram, Row, Sample, Size, apart, of, row, timed
-from measurements.accuracy.growth import Leaving, leaving
+from measurements.accuracy.diagram import (
+    FAILED,
+    Diagram,
+    DiagramRow,
+    Size,
+    TimedError,
+    in_fresh_process,
+    size_suffix,
+    summarise,
+    timed,
+)
+from measurements.accuracy.growth_rate import UnstableState, unstable_state
 from measurements.accuracy.packings import compressed
 
 PHI, INTERACTION = 0.9, Interaction.from_law(ContactLaw(kt=1.0))
@@ -43,23 +53,23 @@ PHI, INTERACTION = 0.9, Interaction.from_law(ContactLaw(kt=1.0))
 TIME_STEPS = (2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
 DURATION = 10.0
 
-FINER, WITHIN_STEP = 32, 64
-"""How much shorter the Δt of a reference is, of a motion and of a step."""
+REFERENCE_REFINEMENT, STEPS_WITHIN_STEP = 32, 64
+"""Factors by which the Δt of the reference is shorter, for a motion and for a single step."""
 
 AMPLITUDE = 1e-6
-"""Size of displacements and velocities at the start, d and d/t_0: no contact opens."""
+"""Size of displacements and velocities at the start, in d and d/t_0; no contact opens."""
 
 DAMPINGS = {"no damping": Undamped(), "dashpots": Dashpot(StepStrain().damping)}
 DEFAULTS = {"no damping": Release().time_step, "dashpots": StepStrain().time_step}
-GROWING = 32
-"""Grains of an unstable state, found by LAPACK in each of 200 states."""
+UNSTABLE_N = 32
+"""Number of grains of an unstable state, which LAPACK finds among 200 states."""
 
 QUANTITIES = ("$q$", r"$\dot q$")
 SPANS = (f"{DURATION:g} $t_0$", "one step")
 
 
 class Start(NamedTuple):
-    """A packing on the move: velocities (N, 3) in d/t_0."""
+    """A moving packing, with velocities (N, 3) in d/t_0."""
 
     packing: Packing
     velocity: np.ndarray
@@ -69,8 +79,8 @@ class Start(NamedTuple):
         return move(self.packing, self.velocity, INTERACTION, damping, time_step, Stop(0.0, steps))
 
 
-def kicked(n: int, seed: int) -> Start:
-    """A packing slightly out of balance, its grains with slight velocities."""
+def perturbed(n: int, seed: int) -> Start:
+    """A packing slightly out of balance, whose grains move slowly."""
     packing = compressed(n, seed, PHI)
     kick = AMPLITUDE * np.random.default_rng(seed).standard_normal((2, n, 3))
     return Start(replace(packing.displaced(kick[0, :, :2]), rotation=kick[0, :, 2]), kick[1])
@@ -86,42 +96,44 @@ def errors(motion: Motion, exact: Motion) -> tuple[float, float]:
     return position, velocity
 
 
-def measure(size: Size) -> Iterator[Row]:
+def measure(size: Size) -> Iterator[DiagramRow]:
     """Rows for every damping, span, quantity and Δt, then for the growth of unstable states."""
     for n in size.n:
-        starts = [kicked(n, seed) for seed in range(size.seeds)]
+        starts = [perturbed(n, seed) for seed in range(size.seeds)]
         for name, damping in DAMPINGS.items():
-            steps = round(DURATION * FINER / min(TIME_STEPS))
+            steps = round(DURATION * REFERENCE_REFINEMENT / min(TIME_STEPS))
             exact = [start.after(damping, DURATION / steps, steps) for start in starts]
             for time_step in TIME_STEPS:
-                done = apart(sampled, name, time_step, starts, exact)
+                done = in_fresh_process(timed_errors, name, time_step, starts, exact)
                 for (span, what), samples in done.value.items():
                     default = span == SPANS[0] and time_step == DEFAULTS[name]
-                    curve = f"{name}, {what} after {span}{of(n, size)}"
-                    yield row(curve, time_step, samples, done.megabytes, default)
+                    curve = f"{name}, {what} after {span}{size_suffix(n, size)}"
+                    yield summarise(curve, time_step, samples, done.megabytes, default)
     yield from growth(size.seeds)
 
 
-def growth(seeds: int) -> Iterator[Row]:
+def growth(seeds: int) -> Iterator[DiagramRow]:
     """Rows of the growth rate for every Δt, over the seeds that have an unstable state."""
-    states = [state for state in (leaving(GROWING, seed) for seed in range(seeds)) if state]
+    states = [
+        state for state in (unstable_state(UNSTABLE_N, seed) for seed in range(seeds)) if state
+    ]
     for time_step in TIME_STEPS:
-        done = apart(grown, time_step, states)
+        done = in_fresh_process(growth_errors, time_step, states)
         default = time_step == DEFAULTS["no damping"]
-        yield row("no damping, growth rate", time_step, done.value, done.megabytes, default)
+        yield summarise("no damping, growth rate", time_step, done.value, done.megabytes, default)
 
 
-def sampled(name: str, time_step: float, starts: list[Start], exact: list[Motion]) -> dict:
+def timed_errors(name: str, time_step: float, starts: list[Start], exact: list[Motion]) -> dict:
     """(span, quantity) → a sample for every start."""
     starts[0].after(DAMPINGS[name], time_step, 1)
     samples = [
-        _samples(start, DAMPINGS[name], time_step, end)
+        _timed_errors(start, DAMPINGS[name], time_step, end)
         for start, end in zip(starts, exact, strict=True)
     ]
     return {key: [sample[key] for sample in samples] for key in product(SPANS, QUANTITIES)}
 
 
-def _samples(start: Start, damping, time_step: float, exact: Motion) -> dict:
+def _timed_errors(start: Start, damping, time_step: float, exact: Motion) -> dict:
     """(span, quantity) → the sample of one start."""
     steps = round(DURATION / time_step)
     seconds, whole = np.nan, (np.inf, np.inf)
@@ -130,29 +142,29 @@ def _samples(start: Start, damping, time_step: float, exact: Motion) -> dict:
         whole = errors(motion, exact)
     seconds /= DURATION * start.packing.n
     once = start.after(damping, time_step, 1)
-    often = start.after(damping, time_step / WITHIN_STEP, WITHIN_STEP)
+    often = start.after(damping, time_step / STEPS_WITHIN_STEP, STEPS_WITHIN_STEP)
     found = [*whole, *errors(once, often)]
-    samples = [_followed(Sample(seconds, error)) for error in found]
+    samples = [_unless_beyond_motion(TimedError(seconds, error)) for error in found]
     return dict(zip(product(SPANS, QUANTITIES), samples, strict=True))
 
 
-def grown(time_step: float, states: list[Leaving]) -> list[Sample]:
+def growth_errors(time_step: float, states: list[UnstableState]) -> list[TimedError]:
     """The error of ω_i of every state."""
     states[0].rate(max(TIME_STEPS))
-    return [_grown(time_step, state) for state in states]
+    return [_growth_error(time_step, state) for state in states]
 
 
-def _grown(time_step: float, state: Leaving) -> Sample:
+def _growth_error(time_step: float, state: UnstableState) -> TimedError:
     try:
         rate, seconds = timed(state.rate, time_step)
     except SAMPLE_ERRORS:
         return FAILED
     seconds /= state.duration * state.packing.n
-    return _followed(Sample(seconds, abs(rate / state.omega.imag - 1.0)))
+    return _unless_beyond_motion(TimedError(seconds, abs(rate / state.omega.imag - 1.0)))
 
 
-def _followed(sample: Sample) -> Sample:
-    """The sample, if its error does not exceed the motion."""
+def _unless_beyond_motion(sample: TimedError) -> TimedError:
+    """The sample; it has failed if its error exceeds the motion itself."""
     return sample if sample.error < 1.0 else FAILED
 
 

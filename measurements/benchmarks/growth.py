@@ -1,11 +1,12 @@
 """Growth of every stage with N: `snakemake -j1 growth` → results/growth.{csv,png,pdf}, costs.yaml.
 
-    growth.py FOLDER --longest SECONDS
+    python -m measurements.benchmarks.growth FOLDER --longest SECONDS
 
 Each work (`works.py`) is timed at N = 64, 128, … 65536 until a run would take longer than
-`SECONDS`, each time in a process of its own. Rows go to growth.csv as they come, and are there to
-stay: a run that was stopped goes on, a longer limit adds sizes, and without the file all is
-measured anew. Exponents (`growth_laws.py`) and the figure (`growth_figure.py`) follow from it.
+`SECONDS`, each time in a process of its own. Rows are added to growth.csv as they are measured, and
+stay there: a run that was interrupted continues, a longer limit adds sizes, and without the file
+all is measured again. Exponents (`growth_laws.py`) and the figure (`growth_figure.py`)
+follow from it.
 
 | column    | meaning                                                        |
 | --------- | -------------------------------------------------------------- |
@@ -27,9 +28,7 @@ from pathlib import Path
 import pandas as pd
 
 from grainmodes.runtime.environment import prepare
-
-# Inherited by the processes that measure.
-prepare()
+from measurements.machine import default_factorisation, processor_model
 
 SIZES = tuple(64 * 2**k for k in range(11))
 
@@ -38,23 +37,19 @@ WORKS = (
     *("dense_values", "dense_modes", "window_pardiso", "window_superlu", "shear"),
     *("complex_pairs", "fields", "law_comparison"),
 )
-"""Event details, releases and probes are left out: what they cost hangs on where a sample has its
-events, on how slowly its unstable state is left, on a compression with friction, more than on N."""
+"""Event details, releases and claim diagnostics are left out. Their cost depends less on N than on
+where a sample has its events, how slowly its unstable state grows, and how a compression with
+friction goes."""
 
 COLUMNS = ["work", "n", "seconds", "units", "megabytes"]
 
 
 def machine() -> str:
     """Processor, cores, Python, and the factorisation that "auto" takes."""
-    fast = "PARDISO" if find_spec("pypardiso") else "SuperLU alone"
-    return f"{_processor()}, {os.cpu_count()} cores, Python {platform.python_version()}, {fast}"
-
-
-def _processor() -> str:
-    known = Path("/proc/cpuinfo")
-    lines = known.read_text(encoding="utf-8").splitlines() if known.is_file() else []
-    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    return " ".join([*models[:1], platform.machine()])
+    processor = " ".join(filter(None, [processor_model(), platform.machine()]))
+    factorisation = default_factorisation().replace("SuperLU", "SuperLU alone")
+    python = f"Python {platform.python_version()}"
+    return f"{processor}, {os.cpu_count()} cores, {python}, {factorisation}"
 
 
 def read(path: Path) -> tuple[str, pd.DataFrame]:
@@ -63,7 +58,7 @@ def read(path: Path) -> tuple[str, pd.DataFrame]:
     return head.removeprefix("# "), pd.read_csv(path, comment="#")
 
 
-def apart(function: str, *arguments):
+def in_fresh_process(function: str, *arguments):
     """A function of `works` in a fresh process."""
     with get_context("spawn").Pool(1) as pool:
         return pool.apply(_call, (function, *arguments))
@@ -88,7 +83,7 @@ def measure(path: Path, longest: float) -> None:
     scratch = path.with_suffix("")
     scratch.mkdir(exist_ok=True)
     if "bare" not in set(read(path)[1]["work"]):
-        _add(path, "bare", 16, apart("start_up"), 1.0, apart("bare", scratch))
+        _add(path, "bare", 16, in_fresh_process("start_up"), 1.0, in_fresh_process("bare", scratch))
     for work in WORKS:
         if not work.endswith("_pardiso") or find_spec("pypardiso"):
             _extend(path, work, longest, scratch)
@@ -99,11 +94,13 @@ def _extend(path: Path, work: str, longest: float, scratch: Path) -> None:
     rows = read(path)[1]
     seconds = rows["seconds"][rows["work"] == work].tolist()
     if not seconds:
-        apart("timed", work, SIZES[0], scratch)  # what is compiled now would count as memory
+        in_fresh_process(
+            "timed", work, SIZES[0], scratch
+        )  # what is compiled now would count as memory
     for n in SIZES[len(seconds) :]:
         if expected(seconds) > longest:
             return
-        timed = apart("timed", work, n, scratch)
+        timed = in_fresh_process("timed", work, n, scratch)
         seconds.append(timed.seconds)
         _add(path, work, n, *timed)
 
@@ -128,6 +125,7 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--longest", type=float, required=True, help="CPU seconds of one run")
     arguments = parser.parse_args()
+    prepare()  # for the processes that measure
     arguments.folder.mkdir(parents=True, exist_ok=True)
     path = arguments.folder / "growth.csv"
     try:

@@ -16,7 +16,7 @@ from grainmodes import figures
 from grainmodes.cost.table import REFERENCE
 from grainmodes.figures.shared import appearance, labels
 from grainmodes.runtime.atomic import replaced
-from measurements.benchmarks.growth_laws import LAST, Fit, laws, per_sample
+from measurements.benchmarks.growth_laws import FITTED_SIZES, Fit, fit_laws, per_sample
 
 PANELS = {
     "packings, rigidity": ("trajectory", "equilibrate", "step_strain", "rigidity"),
@@ -60,7 +60,7 @@ def _timeless(form: str) -> dict:
 def draw(machine: str, rows: pd.DataFrame) -> plt.Figure:
     """A column of panels per theme; legends below them hold the exponents."""
     figure, axes = plt.subplots(2, len(PANELS), figsize=SIZE, sharex=True, sharey="row")
-    found, samples = laws(rows), per_sample(rows)
+    found, samples = fit_laws(rows), per_sample(rows)
     for index, (title, works) in enumerate(PANELS.items()):
         for place, name in enumerate(("seconds", "megabytes")):
             _panel(axes[place, index], samples, name, works, found, place)
@@ -68,20 +68,20 @@ def draw(machine: str, rows: pd.DataFrame) -> plt.Figure:
         _legend(axes[1, index], works, found)
     axes[0, 0].set(ylabel="CPU time of a sample (s)", xlim=(45, 90_000))
     axes[1, 0].set(ylabel="memory it adds (MB)")
-    figure.suptitle(f"{machine}, one thread\n{LINES}")
+    figure.suptitle(f"{machine}, one thread\n{NOTE}")
     return figure
 
 
-LINES = f"lines: fits to the last {LAST} sizes; below a name: exponents of time, of memory"
+NOTE = f"lines: fits to the last {FITTED_SIZES} sizes; below a name: exponents of time, of memory"
 
 
 def _panel(axes: Axes, samples, name: str, works, found, place: int) -> None:
-    """Symbols for what was measured, lines for the fitted laws."""
+    """Draw symbols for the measurements and lines for the fitted laws."""
     for work, colour, marker in appearance.curve_styles(list(works)):
-        of = samples[(samples["work"] == work) & samples[name].notna()]
-        axes.loglog(of["n"], of[name], marker, color=colour, mfc="none", markersize=3.6)
+        rows = samples[(samples["work"] == work) & samples[name].notna()]
+        axes.loglog(rows["n"], rows[name], marker, color=colour, mfc="none", markersize=3.6)
         if work in found:
-            _line(axes, found[work][place], of["n"].to_numpy()[-LAST:], colour)
+            _line(axes, found[work][place], rows["n"].to_numpy()[-FITTED_SIZES:], colour)
     axes.set_xticks([1e2, 1e3, 1e4])
 
 

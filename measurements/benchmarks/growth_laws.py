@@ -17,14 +17,14 @@ from grainmodes.cost.table import COSTS, REFERENCE
 from grainmodes.runtime.atomic import replaced
 from grainmodes.statistics.rounding import value_with_error
 
-LAST = 4
-"""So many of the largest sizes are fitted: small ones are governed by overheads."""
+FITTED_SIZES = 4
+"""Number of the largest sizes that are fitted; overheads dominate small ones."""
 
-LEAST = 3.0
-"""MB above a bare job: less cannot be told from nothing."""
+MIN_MEGABYTES = 3.0
+"""Smallest memory above that of a bare job that can be measured, in MB."""
 
-EDGES = 160
-"""Edges of bins of a usual density of states."""
+USUAL_EDGES = 160
+"""Number of edges of the bins of a usual density of states."""
 
 
 class Fit(NamedTuple):
@@ -36,9 +36,9 @@ class Fit(NamedTuple):
     p_error: float
 
 
-def fitted(n, values) -> Fit:
+def fit_power_law(n, values) -> Fit:
     """The power law through the last sizes; errors are NaN below three of them."""
-    x, y = np.log(np.array(n[-LAST:]) / REFERENCE), np.log(values[-LAST:])
+    x, y = np.log(np.array(n[-FITTED_SIZES:]) / REFERENCE), np.log(values[-FITTED_SIZES:])
     p, log_c = np.polyfit(x, y, 1)
     errors = np.full(2, np.nan)
     if len(x) > 2:
@@ -49,45 +49,45 @@ def fitted(n, values) -> Fit:
 def per_sample(rows: pd.DataFrame) -> pd.DataFrame:
     """Rows with the CPU seconds of a whole sample, and the memory in MB above that of a bare job.
 
-    A sample of counts has 160 edges; the other works are timed on a whole sample. Memory that
-    cannot be told from nothing is NaN.
+    A sample of counts has 160 edges; the other works are timed on a whole sample. Memory
+    too small to be measured is NaN.
     """
     bare = rows.loc[rows["work"] == "bare", "megabytes"].item()
-    of = rows[rows["work"] != "bare"]
-    edges = of["work"].str.startswith("count").map({True: EDGES, False: np.nan})
-    seconds = (of["seconds"] * edges / of["units"]).fillna(of["seconds"])
-    memory = of["megabytes"] - bare
-    return of.assign(seconds=seconds, megabytes=memory.where(memory >= LEAST))
+    timed = rows[rows["work"] != "bare"]
+    edges = timed["work"].str.startswith("count").map({True: USUAL_EDGES, False: np.nan})
+    seconds = (timed["seconds"] * edges / timed["units"]).fillna(timed["seconds"])
+    memory = timed["megabytes"] - bare
+    return timed.assign(seconds=seconds, megabytes=memory.where(memory >= MIN_MEGABYTES))
 
 
-def laws(rows: pd.DataFrame) -> dict[str, tuple[Fit, Fit]]:
+def fit_laws(rows: pd.DataFrame) -> dict[str, tuple[Fit, Fit]]:
     """Work → the law of its time and that of its memory, per sample, for two sizes or more."""
     return {
-        work: (_law(of, "seconds"), _law(of, "megabytes"))
-        for work, of in per_sample(rows).groupby("work", sort=False)
-        if len(of) > 1
+        work: (_fit_column(samples, "seconds"), _fit_column(samples, "megabytes"))
+        for work, samples in per_sample(rows).groupby("work", sort=False)
+        if len(samples) > 1
     }
 
 
-def _law(of: pd.DataFrame, name: str) -> Fit:
-    """The law of the sizes at which there is a number; NaN for fewer than two."""
-    known = of[of[name].notna()]
+def _fit_column(samples: pd.DataFrame, name: str) -> Fit:
+    """The law of a column, from the sizes with a value; NaN for fewer than two."""
+    known = samples[samples[name].notna()]
     if len(known) < 2:
         return Fit(*[np.nan] * 4)
-    return fitted(known["n"].tolist(), known[name].tolist())
+    return fit_power_law(known["n"].tolist(), known[name].tolist())
 
 
 def exponents(rows: pd.DataFrame) -> str:
     """The exponents as a table in Markdown."""
     lines = ["| stage | fitted on N | time N^p, p | memory N^q, q |", "| --- | --- | --- | --- |"]
-    for work, (time, memory) in laws(rows).items():
-        sizes = rows["n"][rows["work"] == work].tolist()[-LAST:]
-        numbers = f"{spoken(time)} | {spoken(memory)}"
+    for work, (time, memory) in fit_laws(rows).items():
+        sizes = rows["n"][rows["work"] == work].tolist()[-FITTED_SIZES:]
+        numbers = f"{exponent_text(time)} | {exponent_text(memory)}"
         lines.append(f"| {work.replace('_', ' ')} | {sizes[0]} to {sizes[-1]} | {numbers} |")
     return "\n".join(lines) + "\n"
 
 
-def spoken(fit: Fit) -> str:
+def exponent_text(fit: Fit) -> str:
     """An exponent with its error."""
     return value_with_error(fit.p, fit.p_error) if np.isfinite(fit.p) else "–"
 
@@ -103,18 +103,18 @@ def write(machine: str, rows: pd.DataFrame, path: Path) -> None:
 
 
 def _line(work: str, kept: dict, rows: pd.DataFrame) -> str:
-    """The line of a work in the table: measured, or the row of the table before."""
-    of = rows[rows["work"] == work]
-    values, words = _row(of, rows) if len(of) > 1 else (kept, "kept: not measured")
+    """The line of a work in the table: measured, or its row of the previous table."""
+    timed = rows[rows["work"] == work]
+    values, words = _row(timed, rows) if len(timed) > 1 else (kept, "kept: not measured")
     flow = yaml.safe_dump(values, default_flow_style=True, sort_keys=False, width=999)
     return f"  {work}: {flow.strip()}  # {words}"
 
 
-def _row(of: pd.DataFrame, rows: pd.DataFrame) -> tuple[dict, str]:
-    sizes = of["n"].tolist()
-    time = fitted(sizes, (of["seconds"] / of["units"]).tolist())
-    megabytes = per_sample(rows).loc[of.index, "megabytes"].fillna(LEAST)
-    memory = fitted(sizes, megabytes.tolist())
+def _row(timed: pd.DataFrame, rows: pd.DataFrame) -> tuple[dict, str]:
+    sizes = timed["n"].tolist()
+    time = fit_power_law(sizes, (timed["seconds"] / timed["units"]).tolist())
+    megabytes = per_sample(rows).loc[timed.index, "megabytes"].fillna(MIN_MEGABYTES)
+    memory = fit_power_law(sizes, megabytes.tolist())
     values = {
         "seconds": _digits(time.c),
         "exponent": _digits(time.p),
@@ -122,7 +122,7 @@ def _row(of: pd.DataFrame, rows: pd.DataFrame) -> tuple[dict, str]:
         "memory_exponent": _digits(memory.p),
         "up_to": sizes[-1],
     }
-    words = f"N = {sizes[-LAST:][0]} to {sizes[-1]}: c +- {100 * time.c_error:.0f} %"
+    words = f"N = {sizes[-FITTED_SIZES:][0]} to {sizes[-1]}: c +- {100 * time.c_error:.0f} %"
     return values, f"{words}, p +- {time.p_error:.2f}"
 
 

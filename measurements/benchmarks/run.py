@@ -9,16 +9,15 @@
 
 from __future__ import annotations
 
+import argparse
 import platform
 import resource
-from importlib.util import find_spec
 from multiprocessing import get_context
 
 import numpy as np
 
 from grainmodes.runtime.environment import prepare
-
-prepare()
+from measurements.machine import default_factorisation
 
 CASES = (
     ("phi 0.80 -> 0.90 in 100 steps, each to 1e-10", "compression_in_large_steps", 1024, 5.0, "s"),
@@ -55,7 +54,7 @@ CASES = (
 )
 
 
-def measured(name: str, n: int) -> tuple[float, float]:
+def run_case(name: str, n: int) -> tuple[float, float]:
     """(time, peak memory in MB) of a case, in this process."""
     from measurements.benchmarks import cases, twin
 
@@ -64,15 +63,15 @@ def measured(name: str, n: int) -> tuple[float, float]:
 
 
 def main() -> None:
-    """Run every case in a fresh process and print its row as it comes."""
-    fast = "PARDISO" if find_spec("pypardiso") else "SuperLU"
-    print(
-        f"{platform.machine()}, Python {platform.python_version()}, one thread, {fast}", flush=True
-    )
+    """Run every case in a fresh process and print its row as soon as it is measured."""
+    argparse.ArgumentParser(description=__doc__.partition(":")[0]).parse_args()
+    prepare()  # for the processes that measure
+    python = f"Python {platform.python_version()}"
+    print(f"{platform.machine()}, {python}, one thread, {default_factorisation()}", flush=True)
     print(f"{'work':54} {'N':>6} {'measured':>10} {'to reach':>9}      {'peak':>8}", flush=True)
     for title, name, n, target, unit in CASES:
         with get_context("spawn").Pool(1) as pool:
-            value, memory = pool.apply(measured, (name, n))
+            value, memory = pool.apply(run_case, (name, n))
         numbers = f"{n:6d} {value:10.3g} {target:9.3g} {unit:3} {memory:6.0f} MB"
         print(f"{title:54} {numbers}", flush=True)
 

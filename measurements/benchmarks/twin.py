@@ -2,8 +2,8 @@
 
     F_i = Σ_j ξ^(3/2) n_ij                                                 A (A4)
 
-What `grainmodes.kernels.repulsion` is measured against, on the same positions and the same list of
-pairs: all that is known beforehand is put to use, k_N = 1, γ = 0, one root for ξ^(3/2)/r.
+`grainmodes.kernels.repulsion` is compared with them on the same positions and the same list of
+pairs. They use all that is known beforehand: k_N = 1, γ = 0, one root for ξ^(3/2)/r.
 `one_loop` and `row_by_row` branch at every pair, `in_blocks` nowhere: it vectorises.
 """
 
@@ -22,7 +22,7 @@ from grainmodes.kernels.repulsion import repulsion
 from grainmodes.relaxation.frictionless import SKIN
 
 FLAGS = {"error_model": "numpy", "fastmath": {"reassoc", "contract", "nsz"}}
-BLOCK = 256
+GRAINS_PER_BLOCK = 256
 ROUNDS = 41
 """Times that the project's kernel and its twins are run in turn."""
 
@@ -70,9 +70,9 @@ def row_by_row(x, y, scale, pairs, fx, fy):
 def in_blocks(x, y, scale, pairs, fx, fy):
     """The same without a branch, in blocks of grains that fit the first-level cache."""
     n = x.shape[0]
-    forces = np.empty((2, 16 * BLOCK))
-    for begin in range(0, n, BLOCK):
-        end = min(begin + BLOCK, n)
+    forces = np.empty((2, 16 * GRAINS_PER_BLOCK))
+    for begin in range(0, n, GRAINS_PER_BLOCK):
+        end = min(begin + GRAINS_PER_BLOCK, n)
         _pairs(x, y, scale, pairs, pairs.first[begin], pairs.first[end], forces)
         _sums(pairs, begin, end, forces, fx, fy)
 

@@ -1,8 +1,8 @@
-"""The works of the table of costs, each timed at one N: φ = 0.90, k_T/k_N = 1e-4.
+"""The works of the table of costs, each timed at one N, at φ = 0.90 and k_T/k_N = 1e-4.
 
-Commands are timed as a study runs them, with reading and writing; a first run on few grains takes
-start-up and compilation out of the time. What takes less than `SHORT` is repeated, and the shortest
-run counts.
+Commands are timed as a study runs them, with reading and writing; a first run on few grains keeps
+start-up and compilation out of the time. What takes less than `MIN_CPU_SECONDS` is repeated, and
+the shortest run counts.
 """
 
 from __future__ import annotations
@@ -28,20 +28,20 @@ from measurements.benchmarks.cases import HERTZ, PROTOCOL
 
 PHI, KT = 0.9, 1e-4
 
-FEW = 64
-"""Grains of the first run of each work."""
+WARM_UP_N = 64
+"""Number of grains of the first run of each work."""
 
-LOOSE = 1e-5
+TRAJECTORY_FORCE = 1e-5
 """Largest force on a grain that a trajectory leaves at φ = 0.90: 1e-3 of the mean contact force."""
 
-SHEARED = 0.02
+SHEAR_STRAIN = 0.02
 """Strain to which a shear is timed."""
 
-FINENESS = 0.01
+BIN_DENSITY = 0.01
 """Factor on the numbers of linear bins where edges are counted: 33 edges instead of 160."""
 
-SHORT, MOST = 1.0, 5
-"""CPU seconds below which a work is repeated, up to so many runs."""
+MIN_CPU_SECONDS, MAX_RUNS = 1.0, 5
+"""A work is repeated until its runs together took so many CPU seconds, but at most so often."""
 
 SPECTRA = {
     "dense_values": ("eigenvalues", "dense", "auto"),
@@ -54,28 +54,28 @@ SPECTRA = {
 """Name of a work → kind of the spectrum, method, factorisation."""
 
 
-class Timed(NamedTuple):
-    """CPU seconds of a work, how many units of it that were, and the peak memory in MB."""
+class TimedWork(NamedTuple):
+    """CPU seconds of a work, the number of units it did, and the peak memory in MB."""
 
     seconds: float
     units: float
     megabytes: float
 
 
-def timed(work: str, n: int, folder: Path) -> Timed:
+def timed(work: str, n: int, folder: Path) -> TimedWork:
     """One work at n grains, in this process; `folder` keeps packings for other works."""
     run = {
         "trajectory": lambda n: sum(climb(n)),
         "equilibrate": _balance,
-        "complex_pairs": lambda n: cases.pairs_along(n, "continuation", SHEARED),
+        "complex_pairs": lambda n: cases.pairs_along(n, "continuation", SHEAR_STRAIN),
     }.get(work, lambda n: _respond(work, n, folder))
-    run(FEW)
-    return Timed(_shortest(run, n), _units(work, n, folder), peak())
+    run(WARM_UP_N)
+    return TimedWork(_shortest(run, n), _units(work, n, folder), peak())
 
 
 def _shortest(run: Callable[[int], float], n: int) -> float:
     seconds = [run(n)]
-    while sum(seconds) < SHORT and len(seconds) < MOST:
+    while sum(seconds) < MIN_CPU_SECONDS and len(seconds) < MAX_RUNS:
         seconds.append(run(n))
     return min(seconds)
 
@@ -103,12 +103,12 @@ def peak() -> float:
 
 def bare(folder: Path) -> float:
     """Peak memory of a job on few grains, in MB."""
-    _respond("rigidity", FEW, folder)
+    _respond("rigidity", WARM_UP_N, folder)
     return peak()
 
 
 def _balance(n: int) -> float:
-    loose = cases.quenched(n, PHI, LOOSE)
+    loose = cases.quenched(n, PHI, TRAJECTORY_FORCE)
     return cases.cpu(
         relax_fire_newton, loose, HERTZ, PROTOCOL.force_tolerance, PROTOCOL.max_iterations
     )
@@ -127,7 +127,7 @@ def _respond(work: str, n: int, folder: Path) -> float:
 
 
 def _settings(work: str) -> dict:
-    sheared = {"protocol": {"shear": {"strain": SHEARED}}}
+    sheared = {"protocol": {"shear": {"strain": SHEAR_STRAIN}}}
     if work == "shear":
         return {"contact_law": {"normal": "harmonic"}} | sheared
     if work == "law_comparison":
@@ -135,7 +135,7 @@ def _settings(work: str) -> dict:
     if work not in SPECTRA:
         return {}
     kind, method, factorisation = SPECTRA[work]
-    choices = {"method": method, "factorisation": factorisation, "bin_density": FINENESS}
+    choices = {"method": method, "factorisation": factorisation, "bin_density": BIN_DENSITY}
     return {"observables": {"spectrum": kind}, "protocol": {"spectrum": choices}}
 
 
@@ -148,7 +148,7 @@ def _used() -> float:
 def _units(work: str, n: int, folder: Path) -> float:
     """Modes of windows, edges of counts, steps or states of a shear; else one sample."""
     if work in ("shear", "law_comparison", "complex_pairs"):
-        return SHEARED / USUAL_STEP
+        return SHEAR_STRAIN / USUAL_STEP
     names = {"window": "mode_count", "count": "bin_edge"}
     name = names.get(work.split("_")[0])
     if name is None:

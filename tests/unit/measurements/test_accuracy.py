@@ -12,24 +12,33 @@ from measurements.accuracy import (
     backtracking,
     draw,
     force_tolerance,
-    growth,
+    growth_rate,
     strain_step,
     table,
     time_step,
 )
-from measurements.accuracy.diagram import FAILED, Row, Sample, Size, apart, knee, row, timed
+from measurements.accuracy.diagram import (
+    FAILED,
+    DiagramRow,
+    Size,
+    TimedError,
+    in_fresh_process,
+    knee,
+    summarise,
+    timed,
+)
 
 ROOT = Path(__file__).parents[3]
 SCRIPTS = ROOT / "measurements" / "accuracy"
 RUN = (sys.executable, "-m")
 
 
-def curve(errors, seconds=None, failed=None, name="fast, error of g") -> list[Row]:
+def curve(errors, seconds=None, failed=None, name="fast, error of g") -> list[DiagramRow]:
     """A curve of these errors, each point by default ten times as dear as the one before."""
     seconds = seconds or [10.0**k for k in range(len(errors))]
     failed = failed or [0] * len(errors)
     return [
-        Row(name, 10.0**-k, time, 200.0, error, 0.1 * error, 8 - lost, lost, k == 1)
+        DiagramRow(name, 10.0**-k, time, 200.0, error, 0.1 * error, 8 - lost, lost, k == 1)
         for k, (error, time, lost) in enumerate(zip(errors, seconds, failed, strict=True))
     ]
 
@@ -49,11 +58,11 @@ def test_a_setting_that_failed_a_sample_is_no_knee():
 
 
 def test_a_row_is_the_median_over_the_samples_that_came_to_a_result():
-    samples = [Sample(float(k), 10.0 * k) for k in range(1, 6)]
-    assert row("c", 0.5, [*samples, FAILED], 150.0, True) == Row(
+    samples = [TimedError(float(k), 10.0 * k) for k in range(1, 6)]
+    assert summarise("c", 0.5, [*samples, FAILED], 150.0, True) == DiagramRow(
         "c", 0.5, 3.0, 150.0, 30.0, 10.0, 5, 1, True
     )
-    none = row("c", 0.5, [FAILED], 150.0)
+    none = summarise("c", 0.5, [FAILED], 150.0)
     assert math.isnan(none.error)
     assert (none.samples, none.failed) == (0, 1)
 
@@ -65,7 +74,7 @@ def grown(megabytes: int) -> int:
 
 def test_memory_is_that_of_a_process_of_its_own():
     held = bytearray(500 * 2**20)
-    much, little = apart(grown, 400), apart(grown, 1)
+    much, little = in_fresh_process(grown, 400), in_fresh_process(grown, 1)
     assert len(held) > little.megabytes * 2**20
     assert much.value == 400 * 2**20
     assert 300.0 < much.megabytes - little.megabytes < 500.0
@@ -79,7 +88,7 @@ def test_a_short_call_is_timed_until_the_clock_sees_it():
     assert 0.02 / len(calls) <= seconds < 0.02
 
 
-def measured(rows: list[Row]) -> table.Table:
+def measured(rows: list[DiagramRow]) -> table.Table:
     """A table of these rows, as measured here."""
     return table.table_of(strain_step.DIAGRAM, strain_step.DIAGRAM.small, rows)
 
@@ -124,10 +133,18 @@ def test_a_picture_shows_every_curve_its_knee_and_the_default(tmp_path):
 
 
 def test_curves_of_one_kind_share_a_symbol_and_of_one_quantity_a_colour():
-    looks = draw.looks(["fast, g", "fast, contacts", "FIRE, g", "all"])
-    assert looks["fast, g"].marker == looks["fast, contacts"].marker != looks["FIRE, g"].marker
-    assert looks["fast, g"].color == looks["FIRE, g"].color != looks["fast, contacts"].color
-    assert len({look.color for look in looks.values()}) == 3
+    assign_styles = draw.assign_styles(["fast, g", "fast, contacts", "FIRE, g", "all"])
+    assert (
+        assign_styles["fast, g"].marker
+        == assign_styles["fast, contacts"].marker
+        != assign_styles["FIRE, g"].marker
+    )
+    assert (
+        assign_styles["fast, g"].color
+        == assign_styles["FIRE, g"].color
+        != assign_styles["fast, contacts"].color
+    )
+    assert len({style.color for style in assign_styles.values()}) == 3
 
 
 @pytest.mark.parametrize(
@@ -181,7 +198,7 @@ def test_contacts_are_compared_in_the_numbers_of_all_grains():
     assert one.errors(exact) == (0.0, 0.0, 2 / len(exact.contacts))
 
 
-def slope(rows: list[Row], curve: str) -> float:
+def slope(rows: list[DiagramRow], curve: str) -> float:
     """Decades of error per decade of the setting, between the two shortest."""
     coarse, fine = [row for row in rows if row.curve == curve][1:]
     return math.log(coarse.error / fine.error) / math.log(coarse.setting / fine.setting)
@@ -192,7 +209,7 @@ def stepped():
     """Two time steps on few grains, and one that is too long."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(time_step, "TIME_STEPS", (4.0, 4e-3, 1e-3))
-        patch.setattr(time_step, "GROWING", 10)
+        patch.setattr(time_step, "UNSTABLE_N", 10)
         return list(time_step.measure(Size((16,), 1)))
 
 
@@ -206,10 +223,10 @@ def test_orders_of_velocity_verlet(stepped, damping, orders):
 
 
 def test_the_growth_rate_of_a_release_has_order_two():
-    state = growth.leaving(16, 4)
+    state = growth_rate.unstable_state(16, 4)
     errors = [state.rate(step) / state.omega.imag - 1.0 for step in (0.2, 0.05)]
     assert errors[0] / errors[1] == pytest.approx(16.0, rel=0.02)
-    assert growth.leaving(10, 1) is None
+    assert growth_rate.unstable_state(10, 1) is None
 
 
 def test_a_time_step_beyond_the_limit_has_failed(stepped):
@@ -219,7 +236,7 @@ def test_a_time_step_beyond_the_limit_has_failed(stepped):
 
 def test_brackets(monkeypatch):
     monkeypatch.setattr(backtracking, "WIDTHS", (1e-4, 1e-7))
-    monkeypatch.setattr(backtracking, "COARSE", (1e-5,))
+    monkeypatch.setattr(backtracking, "COARSE_WIDTHS", (1e-5,))
     rows = list(backtracking.measure(Size((32,), 2)))
     error = {(row.curve, row.setting): row.error for row in rows}
     for name in ("friction", "no friction"):

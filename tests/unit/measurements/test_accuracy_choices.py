@@ -13,8 +13,8 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.spectrum import Eigenproblem, dense
 from measurements.accuracy import compression_step, kernel_polynomial, loops, precision, spectrum
 from measurements.accuracy import seeds as seeds_module
-from measurements.accuracy.diagram import Apart, Size
-from measurements.accuracy.sharpened import sharpened
+from measurements.accuracy.diagram import ProcessResult, Size
+from measurements.accuracy.refined_modes import refined_eigenpairs
 
 
 def errors_of(rows) -> dict[tuple[str, float], float]:
@@ -26,8 +26,10 @@ def errors_of(rows) -> dict[tuple[str, float], float]:
 def here(monkeypatch):
     """Nothing is measured in a process of its own, nor more than once."""
     for module in (compression_step, precision, seeds_module, spectrum):
-        monkeypatch.setattr(module, "apart", lambda find, *given: Apart(find(*given), 0.0, 1.0))
-    monkeypatch.setattr(spectrum, "LEAST", 0.0)
+        monkeypatch.setattr(
+            module, "in_fresh_process", lambda find, *given: ProcessResult(find(*given), 0.0, 1.0)
+        )
+    monkeypatch.setattr(spectrum, "MIN_CPU_SECONDS", 0.0)
 
 
 def problem_at(kappa: float, n: int = 16):
@@ -71,7 +73,7 @@ def test_shift_and_share_of_known_samples():
 @pytest.mark.parametrize("kappa", [1e-8, 1.0])
 def test_the_reference_eigenvalues_are_right_to_rounding(kappa):
     eigenproblem = problem_at(kappa)
-    values, _ = sharpened(eigenproblem)
+    values, _ = refined_eigenpairs(eigenproblem)
     matrix = eigenproblem.matrix.toarray()
     for rank in (2, 3, eigenproblem.size // 3, eigenproblem.size - 1):
         assert exact.count_below(matrix, values[rank] * (1.0 - 4e-16)) == rank
@@ -81,7 +83,7 @@ def test_the_reference_eigenvalues_are_right_to_rounding(kappa):
 def test_the_reference_eigenvectors_are_sharper_than_those_of_lapack():
     eigenproblem = problem_at(1e-8)
     assert mixing(eigenproblem, dense.eigenpairs(eigenproblem)[1]) > 1e-9
-    vectors = sharpened(eigenproblem)[1]
+    vectors = refined_eigenpairs(eigenproblem)[1]
     assert mixing(eigenproblem, vectors) < 1e-12
     assert np.abs(vectors.T @ vectors - np.eye(eigenproblem.size)).max() < 1e-13
 
@@ -160,7 +162,7 @@ def test_forces_in_extended_precision_are_the_forces():
 
 
 def test_precisions(monkeypatch):
-    monkeypatch.setattr(precision, "STEPS", 60_000)
+    monkeypatch.setattr(precision, "N_STEPS", 60_000)
     rows = list(precision.measure(Size((16,), 1)))
     error = errors_of(rows)
     for what in ("FIRE, forces", "FIRE, max|F|", "dynamics, max|F|"):

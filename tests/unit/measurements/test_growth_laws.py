@@ -42,7 +42,7 @@ def test_every_law_of_the_table_is_used():
 
 def test_a_fit_finds_the_power_of_the_largest_sizes():
     sizes = [64, 256, 512, 1024, 2048]
-    fit = growth_laws.fitted(sizes, [1e3, *(0.3 * (n / 1024) ** 1.4 for n in sizes[1:])])
+    fit = growth_laws.fit_power_law(sizes, [1e3, *(0.3 * (n / 1024) ** 1.4 for n in sizes[1:])])
     assert fit[:2] == pytest.approx((0.3, 1.4))
     assert max(fit[2:]) < 1e-9
 
@@ -51,12 +51,15 @@ def test_a_fit_states_its_error():
     draws = np.random.default_rng(1)
     sizes = [512, 1024, 2048, 4096]
     exact = np.array([0.3 * (n / 1024) ** 1.4 for n in sizes])
-    fits = [growth_laws.fitted(sizes, exact * np.exp(draws.normal(0, 0.1, 4))) for _ in range(400)]
+    fits = [
+        growth_laws.fit_power_law(sizes, exact * np.exp(draws.normal(0, 0.1, 4)))
+        for _ in range(400)
+    ]
     spread = np.std([fit.p for fit in fits])
     assert np.sqrt(np.mean([fit.p_error**2 for fit in fits])) == pytest.approx(spread, rel=0.15)
     spread = np.std([np.log(fit.c) for fit in fits])
     assert np.sqrt(np.mean([fit.c_error**2 for fit in fits])) == pytest.approx(spread, rel=0.15)
-    assert np.isnan(growth_laws.fitted(sizes[:2], exact[:2]).p_error)
+    assert np.isnan(growth_laws.fit_power_law(sizes[:2], exact[:2]).p_error)
 
 
 class Timed(NamedTuple):
@@ -72,7 +75,7 @@ def asked(monkeypatch):
     """The works and sizes that are measured, each as N cubed."""
     calls = []
 
-    def apart(function, *arguments):
+    def in_fresh_process(function, *arguments):
         if function != "timed":
             return {"bare": 150.0, "start_up": 0.5}[function]
         work, n, _ = arguments
@@ -80,7 +83,7 @@ def asked(monkeypatch):
         units = 40.0 if work.startswith("count") else 1.0
         return Timed(2.0 * (n / 1024) ** 3, units, 150.0 + n / 50)
 
-    monkeypatch.setattr(growth, "apart", apart)
+    monkeypatch.setattr(growth, "in_fresh_process", in_fresh_process)
     monkeypatch.setattr(growth, "find_spec", lambda name: None)
     return calls
 
@@ -151,7 +154,7 @@ def test_memory_that_cannot_be_told_is_not_fitted(rows):
     few = growth_laws.per_sample(rows).query("work == 'rigidity'")
     assert few["n"][few["megabytes"].notna()].tolist() == [256, 512, 1024, 2048]
     short = rows[(rows["work"] == "bare") | (rows["n"] < 512)]
-    assert growth_laws.spoken(growth_laws.laws(short)["rigidity"][1]) == "–"
+    assert growth_laws.exponent_text(growth_laws.laws(short)["rigidity"][1]) == "–"
 
 
 def test_every_work_has_its_place_in_the_figure(rows, tmp_path):

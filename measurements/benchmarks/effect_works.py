@@ -37,16 +37,16 @@ from grainmodes.statistics.binning import fixed_edges
 from measurements.benchmarks.cases import HERTZ, balanced_at, quenched
 
 KT = 1e-2
-NONE, ELASTIC = ContactLaw(), ContactLaw(kt=KT)
+FRICTIONLESS, ELASTIC = ContactLaw(), ContactLaw(kt=KT)
 SMOOTHED = ContactLaw("hertz", "smoothed_coulomb", KT, 0.5)
 SHARP = ContactLaw("hertz", "sharp_coulomb", KT, 0.5)
 
-SMALL, LARGE = (256, 1024), (256, 1024, 4096)
+SMALL_SIZES, LARGE_SIZES = (256, 1024), (256, 1024, 4096)
 
 Work = Callable[[], object]
 
 
-class Row(NamedTuple):
+class EffectRow(NamedTuple):
     """An effect at a stage: `prepare(n)` gives the work, which takes `steps` steps."""
 
     stage: str
@@ -72,7 +72,7 @@ def loaded(n: int) -> Packing:
 
 
 STATES = (
-    ("frictionless, 2N", unloaded, NONE),
+    ("frictionless, 2N", unloaded, FRICTIONLESS),
     ("friction, s = 0", unloaded, ELASTIC),
     ("friction, s ≠ 0", loaded, ELASTIC),
 )
@@ -144,15 +144,19 @@ def eigen(modes: bool, state, law: ContactLaw, n: int) -> Work:
     return lambda: full_spectrum(eigenproblem, modes)
 
 
-def rows() -> list[Row]:
+def rows() -> list[EffectRow]:
     """All rows, stage by stage."""
     return [*_kernels(), *_responses(), *_spectra()]
 
 
-def _kernels() -> list[Row]:
+def _kernels() -> list[EffectRow]:
     fires = [
-        Row(
-            "FIRE, a step", f"frictionless, γ = {strain:g}", partial(fire_steps, strain), LARGE, 400
+        EffectRow(
+            "FIRE, a step",
+            f"frictionless, γ = {strain:g}",
+            partial(fire_steps, strain),
+            LARGE_SIZES,
+            400,
         )
         for strain in (0.0, 0.1)
     ]
@@ -164,35 +168,43 @@ def _kernels() -> list[Row]:
         ("sharp Coulomb, no damping", SHARP, Undamped()),
     )
     return fires + [
-        Row("dynamics, a step", name, partial(dynamics_steps, law, damping), LARGE, 200)
+        EffectRow("dynamics, a step", name, partial(dynamics_steps, law, damping), LARGE_SIZES, 200)
         for name, law, damping in kinds
     ]
 
 
-def _responses() -> list[Row]:
+def _responses() -> list[EffectRow]:
     found = [
-        Row(stage, name, partial(function, state, law), sizes)
+        EffectRow(stage, name, partial(function, state, law), sizes)
         for stage, function, sizes in (
-            ("net forces", forces, LARGE),
-            ("J", assembly, LARGE),
-            ("g", moduli, LARGE),
+            ("net forces", forces, LARGE_SIZES),
+            ("J", assembly, LARGE_SIZES),
+            ("g", moduli, LARGE_SIZES),
         )
         for name, state, law in STATES
     ]
-    walks = (("frictionless, 2N", NONE), ("elastic", ELASTIC), ("smoothed Coulomb", SMOOTHED))
+    walks = (
+        ("frictionless, 2N", FRICTIONLESS),
+        ("elastic", ELASTIC),
+        ("smoothed Coulomb", SMOOTHED),
+    )
     return found + [
-        Row("shear, a step", name, partial(sheared, law), SMALL, 10) for name, law in walks
+        EffectRow("shear, a step", name, partial(sheared, law), SMALL_SIZES, 10)
+        for name, law in walks
     ]
 
 
-def _spectra() -> list[Row]:
+def _spectra() -> list[EffectRow]:
     found = [
-        Row(stage, name, partial(bands, averages, law), sizes)
-        for stage, averages, sizes in (("counts", False, LARGE), ("binned_averages", True, SMALL))
+        EffectRow(stage, name, partial(bands, averages, law), sizes)
+        for stage, averages, sizes in (
+            ("counts", False, LARGE_SIZES),
+            ("binned_averages", True, SMALL_SIZES),
+        )
         for name, _, law in STATES[:2]
     ]
     return found + [
-        Row(stage, name, partial(eigen, modes, state, law), SMALL)
+        EffectRow(stage, name, partial(eigen, modes, state, law), SMALL_SIZES)
         for stage, modes in (("eigenvalues", False), ("modes", True))
         for name, state, law in STATES
     ]
