@@ -35,7 +35,7 @@ class DiagramRow(NamedTuple):
     """One setting of one curve.
 
     Attributes:
-        curve: its name, "method, quantity" where curves differ in both: "fast, error of g".
+        curve: its name, "method, quantity" where curves differ in both: "FIRE, error of g".
         setting: value of the numerical choice.
         seconds: CPU seconds per unit of work, mean or median over samples.
         megabytes: peak resident memory of the process that measured it.

@@ -1,7 +1,7 @@
 """F_Th of a force balance: what is left of max|F| when a relaxation stops. A, Appendix A.
 
 A packing is taken from one balance affinely to the next φ and relaxed until max|F| < F_Th: by A's
-FIRE, or the fast way, which ends with Newton's method (`relaxation.frictionless`). The state is off
+FIRE, or by FIRE and then Newton's method (`relaxation.frictionless`). The state is off
 by u = J⁻¹ F, so errors fall as F_Th, faster at loose ones, where contacts still open and close;
 Newton's last step squares what is left, and lands far below its F_Th. Near jamming, as here, J is
 soft and contacts many that hardly touch: F_Th weighs most there.
@@ -53,7 +53,9 @@ PHI, STEP, INTERACTION = 0.85, 1e-3, Interaction.from_law(ContactLaw(kt=1.0))
 DEFAULT = Compression()
 TOLERANCES = tuple(10.0**-k for k in range(4, 18))
 
-RELAXATIONS = {"FIRE": relax_fire, "fast": relax_fire_newton}
+RELAXATIONS = {"FIRE": relax_fire, "FIRE + Newton": relax_fire_newton}
+NAMES = {"fire": "FIRE", "fire_newton": "FIRE + Newton"}
+"""Relaxation of a scene → its name here."""
 
 CONTACTS = "of the contacts"
 QUANTITIES = ("of g", "of the ten lowest eigenvalues", CONTACTS)
@@ -117,7 +119,7 @@ def measure(size: Size) -> Iterator[DiagramRow]:
             exact = [reference(relax, packing) for packing in packings]
             for tolerance in TOLERANCES:
                 done = in_fresh_process(timed_errors, name, tolerance, packings, exact)
-                default = (name, tolerance) == (DEFAULT.relaxation, DEFAULT.force_tolerance)
+                default = (name, tolerance) == (NAMES[DEFAULT.relaxation], DEFAULT.force_tolerance)
                 for what, samples in zip(QUANTITIES, done.value, strict=True):
                     curve = f"{name}, {what}{size_suffix(n, size)}"
                     mean = what == CONTACTS

@@ -31,8 +31,8 @@ from grainmodes.statistics.binning import fixed_edges
 from measurements.accuracy.diagram import Diagram, DiagramRow, Size, in_fresh_process, size_suffix
 from measurements.accuracy.packings import compressed
 
-PHI, KAPPA = 0.9, 1e-4
-INTERACTION = Interaction.from_law(ContactLaw(kt=KAPPA))
+PHI, KT = 0.9, 1e-4
+INTERACTION = Interaction.from_law(ContactLaw(kt=KT))
 
 DEFAULT_SEEDS = 8
 """Seeds of the scene in config/default.yaml."""
@@ -70,7 +70,7 @@ def ensemble_sizes(total: int) -> list[int]:
 
 def ensemble(n: int, seeds: int) -> np.ndarray:
     """G, and the modes in A's bins, of every seed, (T, 1 + B); NaN where a packing failed."""
-    edges = fixed_edges(KAPPA, SpectrumChoices().bin_density)
+    edges = fixed_edges(KT, SpectrumChoices().bin_density)
     found = np.full((seeds, len(edges)), np.nan)
     for seed in range(seeds):
         try:

@@ -216,8 +216,8 @@ def measure(size: Size) -> Iterator[DiagramRow]:
 
 
 def _measured(packings: list[Packing], what: str) -> Iterator[DiagramRow]:
-    kappa, error = QUANTITIES[what]
-    interaction = Interaction.from_law(ContactLaw(kt=kappa))
+    kt, error = QUANTITIES[what]
+    interaction = Interaction.from_law(ContactLaw(kt=kt))
     problems = [Eigenproblem.from_packing(packing, interaction) for packing in packings]
     exact = [in_fresh_process(reference, eigenproblem).value for eigenproblem in problems]
     modes = min(eigenproblem.size for eigenproblem in problems)

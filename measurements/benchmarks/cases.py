@@ -1,7 +1,7 @@
 """What is timed: each case prepares, runs once to compile, and returns seconds of CPU time.
 
 CPU time of one thread. The number in brackets in a name is N. A case runs in a process of its own,
-so that the peak memory printed beside it is its own too.
+so that the peak memory is its own too.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from grainmodes.kernels.damping import Dashpot, Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.fire import FireSettings, fire
 from grainmodes.kernels.laws import Hertz, Interaction
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.grid import checkpoints_up_to, phi_at_step
@@ -53,14 +54,14 @@ def cpu(work, *arguments) -> float:
     return time.process_time() - start
 
 
-def quenched(n: int, phi: float, tolerance: float = 1e-7):
-    """A packing at φ straight from random placement: good enough to time kernels on."""
+def quenched(n: int, phi: float, tolerance: float = 1e-7) -> Packing:
+    """A packing at φ straight from random placement, which is good enough to time kernels."""
     packing = place_at_random(n, 0, HERTZ, PROTOCOL).packing.at(phi)
     return relax_fire_large_steps(packing, HERTZ, tolerance, 0.0, 20_000).packing
 
 
-def balanced_at(n: int, phi: float):
-    """A packing in final balance, quenched."""
+def balanced_at(n: int, phi: float) -> Packing:
+    """A packing at φ in final balance, without a compression before."""
     return relax_fire_newton(quenched(n, phi), HERTZ, 1e-14, 1_000_000).packing
 
 
@@ -164,32 +165,34 @@ def rotational_share(n: int) -> float:
     def measure():
         below = count_below(shift, edges)
         found = rotational_sums(shift, below, edges, eigenproblem.k, cells_per_bin=1)
-        print("rotational_share: largest error of a mean", _worst(found.error, np.diff(below)))
+        print(
+            "rotational_share: largest error of a mean", _largest_error(found.error, np.diff(below))
+        )
 
     return cpu(measure)
 
 
-def _worst(error: np.ndarray, count: np.ndarray) -> float:
+def _largest_error(error: np.ndarray, count: np.ndarray) -> float:
     many = count > 60
     return float((error[many] / count[many]).max())
 
 
-def all_pairs(n: int) -> float:
-    """All eigenpairs with ψ and p, in certified windows."""
+def all_eigenpairs(n: int) -> float:
+    """All eigenpairs with ψ and p, by spectrum slicing with certified counts."""
     eigenproblem = weakly_frictional(n)
     return cpu(lambda: full_spectrum(eigenproblem, choices=SpectrumChoices("slicing")))
 
 
-def weakly_frictional(n: int):
+def weakly_frictional(n: int) -> Eigenproblem:
     """The eigenproblem at φ = 0.90, k_T/k_N = 1e-4."""
     return Eigenproblem.from_packing(balanced_at(n, 0.9), Interaction.from_law(ContactLaw(kt=1e-4)))
 
 
-GRAINS_OF_C = Interaction.from_law(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, 10.0))
+INTERACTION_OF_C = Interaction.from_law(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, 10.0))
 SHEAR_OF_C = Shear(0.02, force_tolerance=5e-14)
 
 
-def packing_of_c(n: int):
+def packing_of_c(n: int) -> Packing:
     """A frictionless packing of C's grains at φ = 0.90, in balance."""
     return replace(balanced_at(n, 0.9), mass=np.ones(n))
 
@@ -197,39 +200,39 @@ def packing_of_c(n: int):
 def pairs_along(n: int, detection: str, strain: float = 0.02) -> float:
     """Complex pairs of every state of a shear in steps of 1e-4, C's grains and law, μ = 10."""
     choices = replace(SHEAR_OF_C, strain=strain)
-    asked = PairChoices(detection, max_located=0)
-    run = PairWalk.start(packing_of_c(n), GRAINS_OF_C, choices, asked)
+    pair_choices = PairChoices(detection, max_located=0)
+    run = PairWalk.start(packing_of_c(n), INTERACTION_OF_C, choices, pair_choices)
 
-    def along():
+    def follow():
         while not run.done:
             run.advance()
 
-    return cpu(along)
+    return cpu(follow)
 
 
-def pairs_carried(n: int) -> float:
-    """From the eigenvectors of the state before."""
+def pairs_by_continuation(n: int) -> float:
+    """The same by continuation of the eigenvectors of the state before."""
     return pairs_along(n, "continuation")
 
 
 def pairs_by_lapack(n: int) -> float:
-    """By a dense general eigensolve at every state."""
+    """The same by a dense general eigensolver at every state."""
     return pairs_along(n, "dense")
 
 
-def pairs_by_windows(n: int) -> float:
+def pairs_in_discs(n: int) -> float:
     """Every complex pair at γ = 0.01, disc by disc."""
     return pairs_of_one_state(n, "discs")
 
 
-def pairs_of_one_by_lapack(n: int) -> float:
-    """The same by a dense general eigensolve."""
+def pairs_of_one_state_by_lapack(n: int) -> float:
+    """The same by a dense general eigensolver."""
     return pairs_of_one_state(n, "dense")
 
 
 def pairs_of_one_state(n: int, detection: str) -> float:
-    """Complex pairs of one state of the shear alone."""
-    now = first_balance(packing_of_c(n), GRAINS_OF_C, SHEAR_OF_C)
+    """Complex pairs of the state at γ = 0.01 alone."""
+    now = first_balance(packing_of_c(n), INTERACTION_OF_C, SHEAR_OF_C)
     for step in range(1, 101):
         now, _ = step_to(step * SHEAR_OF_C.step, now, SHEAR_OF_C)
     return cpu(seen_by, DETECTORS[detection](), now)
@@ -238,7 +241,7 @@ def pairs_of_one_state(n: int, detection: str) -> float:
 HARMONIC = Interaction.from_law(ContactLaw("harmonic", "elastic", 1.0))
 
 
-def harmonic_at(n: int, phi: float):
+def harmonic_at(n: int, phi: float) -> Packing:
     """A harmonic packing in final balance, from a Hertzian one."""
     return relax_fire_newton(balanced_at(n, phi), HARMONIC.normal, 1e-14, 10_000_000).packing
 
@@ -256,24 +259,24 @@ def shear_by_dynamics(n: int) -> float:
 def shear_step(n: int) -> float:
     """A step Δγ = 1e-4 without brackets, in ms."""
     packing, steps = harmonic_at(n, 0.9), 50
-    _walk(packing, Shear(2e-4, 1e-4, 1e-4))
-    return 1e3 / steps * cpu(_walk, packing, Shear(steps * 1e-4, 1e-4, 1e-4))
+    _shear(packing, Shear(2e-4, 1e-4, 1e-4))
+    return 1e3 / steps * cpu(_shear, packing, Shear(steps * 1e-4, 1e-4, 1e-4))
 
 
 def _sheared(n: int, choices: Shear) -> float:
     packing = harmonic_at(n, 0.9)
-    _walk(packing, choices)
-    return cpu(_walk, packing, choices)
+    _shear(packing, choices)
+    return cpu(_shear, packing, choices)
 
 
-def _walk(packing, choices: Shear) -> None:
+def _shear(packing: Packing, choices: Shear) -> None:
     run = QuasistaticRun.from_packing(packing, HARMONIC, choices)
     while not run.done and run.advance():
         pass
 
 
 def start_up(n: int) -> float:
-    """A sample job that has next to nothing to do: interpreter, imports, cached kernels."""
+    """A job on few grains: interpreter, imports, cached kernels."""
     start = None
     for phi in checkpoints_up_to(0.9):
         start = compress_block(n, range(1), phi, PROTOCOL, "hertz", start)

@@ -3,7 +3,7 @@
 | column   | meaning                                                          |
 | -------- | ---------------------------------------------------------------- |
 | measured | CPU time of one thread, best of one run unless the case says so  |
-| to reach | what the project holds itself to                                 |
+| to reach | what the project aims at                                 |
 | peak     | largest resident memory of the process of that case              |
 """
 
@@ -35,7 +35,7 @@ CASES = (
     ("g, g_A, g_NA from a packing", "moduli", 4096, 0.25, "s"),
     ("g, g_A, g_NA from a packing", "moduli", 65536, 3.0, "s"),
     ("all eigenvalues with psi", "all_modes", 1024, 9.0, "s"),
-    ("all eigenpairs with psi and p, in windows", "all_pairs", 4096, 320.0, "s"),
+    ("all eigenpairs with psi and p, by slicing", "all_eigenpairs", 4096, 320.0, "s"),
     ("density of states on 160 edges", "density_of_states", 4096, 6.0, "s"),
     ("the same, SciPy alone", "density_of_states_superlu", 4096, 25.0, "s"),
     ("density of states on 160 edges", "density_of_states", 65536, 240.0, "s"),
@@ -45,17 +45,17 @@ CASES = (
     ("a step of shear", "shear_step", 128, np.inf, "ms"),
     ("a step of shear", "shear_step", 1024, np.inf, "ms"),
     ("a step of shear", "shear_step", 4096, np.inf, "ms"),
-    ("complex pairs of 200 states to 0.02", "pairs_carried", 500, np.inf, "s"),
+    ("complex pairs of 200 states to 0.02", "pairs_by_continuation", 500, np.inf, "s"),
     ("the same, each state by LAPACK", "pairs_by_lapack", 500, np.inf, "s"),
-    ("complex pairs of one state, disc by disc", "pairs_by_windows", 1000, np.inf, "s"),
-    ("the same by LAPACK", "pairs_of_one_by_lapack", 1000, np.inf, "s"),
-    ("complex pairs of one state, disc by disc", "pairs_by_windows", 4096, np.inf, "s"),
+    ("complex pairs of one state, disc by disc", "pairs_in_discs", 1000, np.inf, "s"),
+    ("the same by LAPACK", "pairs_of_one_state_by_lapack", 1000, np.inf, "s"),
+    ("complex pairs of one state, disc by disc", "pairs_in_discs", 4096, np.inf, "s"),
     ("start-up of a sample job", "start_up", 16, 1.0, "s"),
 )
 
 
 def run_case(name: str, n: int) -> tuple[float, float]:
-    """(time, peak memory in MB) of a case, in this process."""
+    """Time and peak memory in MB of a case, in this process."""
     from measurements.benchmarks import cases, twin
 
     value = {**vars(cases), **vars(twin)}[name](n)

@@ -63,7 +63,7 @@ FIGURES = {
     ),
     "dos_frictionless": Figure(
         "paper_a",
-        "Density of states at weak friction and without (paper A, Fig. 11)",
+        "Density of states at weak friction and without friction (paper A, Fig. 11)",
         ("spectrum", "friction", "frictionless"),
     ),
     "dos_hessian": Figure(
@@ -94,7 +94,7 @@ FIGURES = {
     ),
     "stress_brackets": Figure(
         "paper_b",
-        "Stress against strain, events bracketed and not (paper B, Fig. 2)",
+        "Stress against strain with events bracketed and without brackets (paper B, Fig. 2)",
         ("shear", "coarse_run"),
     ),
     "rigidity_strain": Figure(
@@ -105,13 +105,13 @@ FIGURES = {
     ),
     "event_states": Figure(
         "paper_b",
-        "Lowest eigenvalue and rigidity around an event (paper B, Figs. 3 and 13)",
+        "Smallest eigenvalue and rigidity around an event (paper B, Figs. 3 and 13)",
         ("event_detail",),
         "event_detail",
     ),
     "event_eigenvectors": Figure(
         "paper_b",
-        "Lowest eigenvector before and after an event (paper B, Fig. 4)",
+        "Eigenvector of the smallest eigenvalue before and after an event (paper B, Fig. 4)",
         ("event_detail",),
         "event_detail",
     ),
@@ -135,7 +135,7 @@ FIGURES = {
     ),
     "event_brackets": Figure(
         "paper_b",
-        "Stress and strain of an event in closer brackets (paper B, Figs. 11 and 12)",
+        "Stress and strain of an event in closer and closer brackets (paper B, Figs. 11 and 12)",
         ("event_detail",),
         "event_detail",
     ),
@@ -168,7 +168,7 @@ FIGURES = {
     ),
     "release_outcome": Figure(
         "paper_c",
-        "Long-time fate of released states (paper C, Fig. 7)",
+        "Outcome of released states at long times (paper C, Fig. 7)",
         ("release", "friction"),
         "release",
     ),

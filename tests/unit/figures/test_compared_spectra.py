@@ -26,9 +26,9 @@ def test_frictionless_grains_have_the_translational_band_alone(whole_ensemble):
 def test_the_hessian_is_the_jacobian_with_tangent_stiffnesses_alone(whole_ensemble):
     table = dos_hessian.table(whole_ensemble, Options())
     assert list(table["kt"].unique()) == [1e-8, 1e-4, 1.0, 10.0]
-    for kappa, rows in table.groupby("kt"):
+    for kt, rows in table.groupby("kt"):
         density = rows.pivot(index="omega", columns="kind", values="density")
-        assert len(density) == len(synthetic.edges(kappa)) - 1
+        assert len(density) == len(synthetic.edges(kt)) - 1
         assert_array_equal(density["hessian"], density["jacobian"])
         assert_array_equal(rows.loc[rows["kind"] == "hessian", "modes_outside"], 2.0)
         printed = rows.loc[rows["kind"] == "printed", "modes"].to_numpy()
@@ -38,9 +38,9 @@ def test_the_hessian_is_the_jacobian_with_tangent_stiffnesses_alone(whole_ensemb
 def test_rattlers_add_their_modes(whole_ensemble):
     table = dos_rattlers.table(whole_ensemble, Options())
     assert list(table["kt"].unique()) == [1e-8, 1e-4]
-    for kappa, rows in table.groupby("kt"):
+    for kt, rows in table.groupby("kt"):
         modes = rows.pivot(index="omega", columns="kind", values="modes")
-        lone = modes.index < 0.2 * np.sqrt(kappa)
+        lone = modes.index < 0.2 * np.sqrt(kt)
         common = ~lone & (modes.index < 1.0)
         assert_array_equal(modes["with"][common], modes["without"][common])
         assert (modes["with"][lone].sum(), modes["without"][lone].sum()) == (3, 0)

@@ -17,11 +17,11 @@ POINT = (16, 0.90, 1e-4)
 
 
 def test_modes_and_bins_give_the_same_numbers(whole_ensemble, counted_ensemble):
-    for kappa in (0.0, 1e-8, 1e-4, 10.0):
-        point = (16, 0.90, kappa)
+    for kt in (0.0, 1e-8, 1e-4, 10.0):
+        point = (16, 0.90, kt)
         bins = binned_spectrum(counted_ensemble, *point)
         modes = spectrum(whole_ensemble, *point).in_bins(bins.edges)
-        assert_array_equal(bins.edges, synthetic.edges(kappa))
+        assert_array_equal(bins.edges, synthetic.edges(kt))
         assert_array_equal(bins.count, modes.count)
         assert_array_equal(bins.outside, modes.outside)
         assert_allclose(bins.psi_rotational.total, modes.psi_rotational.total, atol=1e-12)

@@ -30,9 +30,9 @@ def test_every_density_counts_every_mode_once(whole_ensemble, counted_ensemble):
     both = (whole_ensemble, counted_ensemble)
     modules = (dos, dos_n, dos_phi, dos_frictionless)
     for table in [module.table(rows, Options()) for module in modules for rows in both]:
-        for (n, _, kappa), rows in table.groupby(["n", "phi", "kt"]):
+        for (n, _, kt), rows in table.groupby(["n", "phi", "kt"]):
             width = rows["omega_high"] - rows["omega_low"]
-            vibrations = (3 if kappa else 2) * n - 2
+            vibrations = (3 if kt else 2) * n - 2
             assert_allclose((rows["density"] * width).sum(), vibrations / (3 * n))
             assert_array_equal(rows["modes_outside"], 2.0)
 
@@ -71,8 +71,10 @@ def test_bin_density_is_that_of_the_study_where_no_other_is_asked_for(tmp_path):
         write_ensemble([point], tmp_path / f"{name}.nc", config)
         with open_ensemble(tmp_path / f"{name}.nc") as dataset:
             bins[name] = dos.table(dataset, Options())["omega"].tolist()
-            for asked in (0.1, 0.2):
-                bins[asked] = dos.table(dataset, Options(bin_density=asked))["omega"].tolist()
+            for requested in (0.1, 0.2):
+                bins[requested] = dos.table(dataset, Options(bin_density=requested))[
+                    "omega"
+                ].tolist()
     assert bins["silent"] == bins[0.2] != bins["0.1"] == bins[0.1]
 
 

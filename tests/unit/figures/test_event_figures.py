@@ -189,8 +189,8 @@ def test_each_figure_takes_the_size_nearest_to_the_papers(name):
     table = (MAPS | SERIES)[name].table(blocks, Options())
     assert set(table["n"]) == {1024 if name in MAPS else 144}
     assert set(table["kt"]) == {1.0}
-    asked = (MAPS | SERIES)[name].table(blocks, Options(n=36, kt=(0.0,)))
-    assert (set(asked["n"]), set(asked["kt"])) == ({36}, {0.0})
+    requested = (MAPS | SERIES)[name].table(blocks, Options(n=36, kt=(0.0,)))
+    assert (set(requested["n"]), set(requested["kt"])) == ({36}, {0.0})
 
 
 def test_err_is_that_of_a_sample_with_friction():

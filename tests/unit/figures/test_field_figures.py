@@ -130,8 +130,8 @@ def test_a_displacement_figure_shows_the_densest_and_most_frictional_sample(name
     blocks = [fields(phi=phi, kt=kt) for phi in (0.9, 0.86) for kt in (1e-4, 1.0)]
     table = MODULES[name].table(blocks, Options())
     assert (set(table["phi"]), set(table["kt"])) == ({0.9}, {1.0})
-    asked = MODULES[name].table(blocks, Options(phi=0.86, kt=(1e-4,)))
-    assert (set(asked["phi"]), set(asked["kt"])) == ({0.86}, {1e-4})
+    requested = MODULES[name].table(blocks, Options(phi=0.86, kt=(1e-4,)))
+    assert (set(requested["phi"]), set(requested["kt"])) == ({0.86}, {1e-4})
     with pytest.raises(ValueError, match=r"kt: expected one of 0\.0001, 1\.0 .* got 3\.0"):
         MODULES[name].table(blocks, Options(kt=(3.0,)))
 
@@ -140,8 +140,8 @@ def test_eigenvectors_are_those_of_the_papers_stiffnesses_where_there_are_any():
     blocks = [fields(kt=kt) for kt in (1.0, 1e-4, 0.0, 1e-6, 1e-8)]
     assert list(eigenvectors.table(blocks, Options())["kt"].unique()) == [1e-8, 1e-4]
     assert list(eigenvectors.table(blocks[:1], Options())["kt"].unique()) == [1.0]
-    asked = eigenvectors.table(blocks, Options(kt=(1.0,)))
-    assert list(asked["kt"].unique()) == [1.0]
+    requested = eigenvectors.table(blocks, Options(kt=(1.0,)))
+    assert list(requested["kt"].unique()) == [1.0]
     with pytest.raises(ValueError, match="with a k_T > 0, got none"):
         eigenvectors.table([fields(kt=0.0)], Options())
 

@@ -15,10 +15,10 @@ def test_figures_show_the_largest_n_and_spectral_ones_the_largest_phi(tmp_path):
     path = synthetic.ensemble(tmp_path, ns=(8, 16), phis=(0.86, 0.88), kts=(1.0,), seeds=2)
     with open_ensemble(path) as dataset:
         table = dos.table(dataset, Options())
-        asked = dos.table(dataset, Options(n=8, phi=0.86))
+        requested = dos.table(dataset, Options(n=8, phi=0.86))
         rigidity = g_phi.table(dataset, Options())
     assert (set(table["n"]), set(table["phi"])) == ({16}, {0.88})
-    assert (set(asked["n"]), set(asked["phi"])) == ({8}, {0.86})
+    assert (set(requested["n"]), set(requested["phi"])) == ({8}, {0.86})
     assert (set(rigidity["n"]), set(rigidity["phi"])) == ({16}, {0.86, 0.88})
 
 

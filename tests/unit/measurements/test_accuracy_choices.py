@@ -32,9 +32,9 @@ def here(monkeypatch):
     monkeypatch.setattr(spectrum, "MIN_CPU_SECONDS", 0.0)
 
 
-def problem_at(kappa: float, n: int = 16):
+def problem_at(kt: float, n: int = 16):
     """The eigenproblem of a small packing."""
-    return Eigenproblem.from_packing(quenched(n, 0.9), Interaction.from_law(ContactLaw(kt=kappa)))
+    return Eigenproblem.from_packing(quenched(n, 0.9), Interaction.from_law(ContactLaw(kt=kt)))
 
 
 def test_a_coarse_compression_jams_at_a_lower_grid_point(monkeypatch):
@@ -70,9 +70,9 @@ def test_shift_and_share_of_known_samples():
     assert other == (0.25, pytest.approx(0.1875**0.5 / 2))
 
 
-@pytest.mark.parametrize("kappa", [1e-8, 1.0])
-def test_the_reference_eigenvalues_are_right_to_rounding(kappa):
-    eigenproblem = problem_at(kappa)
+@pytest.mark.parametrize("kt", [1e-8, 1.0])
+def test_the_reference_eigenvalues_are_right_to_rounding(kt):
+    eigenproblem = problem_at(kt)
     values, _ = refined_eigenpairs(eigenproblem)
     matrix = eigenproblem.matrix.toarray()
     for rank in (2, 3, eigenproblem.size // 3, eigenproblem.size - 1):

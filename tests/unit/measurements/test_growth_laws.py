@@ -71,7 +71,7 @@ class Timed(NamedTuple):
 
 
 @pytest.fixture
-def asked(monkeypatch):
+def timed(monkeypatch):
     """The works and sizes that are measured, each as N cubed."""
     calls = []
 
@@ -88,7 +88,7 @@ def asked(monkeypatch):
     return calls
 
 
-def test_growth_measures_up_to_a_limit(asked, tmp_path):
+def test_growth_measures_up_to_a_limit(timed, tmp_path):
     growth.measure(tmp_path / "growth.csv", 20.0)
     machine, rows = growth.read(tmp_path / "growth.csv")
     assert "cores" in machine
@@ -97,18 +97,18 @@ def test_growth_measures_up_to_a_limit(asked, tmp_path):
     assert set(rows["work"]) == {"bare", *growth.WORKS} - {"count_pardiso", "window_pardiso"}
 
 
-def test_growth_goes_on_where_it_was_stopped(asked, tmp_path):
+def test_growth_goes_on_where_it_was_stopped(timed, tmp_path):
     growth.measure(tmp_path / "growth.csv", 20.0)
     before = (tmp_path / "growth.csv").read_text()
-    asked.clear()
+    timed.clear()
     growth.measure(tmp_path / "growth.csv", 20.0)
-    assert not asked
+    assert not timed
     growth.measure(tmp_path / "growth.csv", 200.0)
     assert (tmp_path / "growth.csv").read_text().startswith(before)
-    assert set(asked) == {(work, 4096) for work in growth.WORKS if "pardiso" not in work}
+    assert set(timed) == {(work, 4096) for work in growth.WORKS if "pardiso" not in work}
 
 
-def test_rows_of_another_machine_are_refused(asked, tmp_path, monkeypatch):
+def test_rows_of_another_machine_are_refused(timed, tmp_path, monkeypatch):
     growth.measure(tmp_path / "growth.csv", 1.0)
     monkeypatch.setattr(growth, "machine", lambda: "another")
     with pytest.raises(ValueError, match="measured on another machine"):
@@ -124,7 +124,7 @@ def test_the_next_size_is_foreseen(seconds, next_one):
 
 
 @pytest.fixture
-def rows(asked, tmp_path):
+def rows(timed, tmp_path):
     """Rows up to N = 2048."""
     growth.measure(tmp_path / "growth.csv", 20.0)
     return growth.read(tmp_path / "growth.csv")[1]
@@ -144,7 +144,7 @@ def test_the_table_of_costs_holds_what_was_measured(rows, tmp_path):
 
 
 def test_exponents_are_those_of_a_whole_sample(rows):
-    time, memory = growth_laws.laws(rows)["count_superlu"]
+    time, memory = growth_laws.fit_laws(rows)["count_superlu"]
     assert (time.c, time.p) == pytest.approx((2.0 * 160 / 40, 3.0))
     assert memory.p == pytest.approx(1.0, abs=0.01)
     assert "| rigidity | 256 to 2048 | 3(0) |" in growth_laws.exponents(rows)
@@ -154,7 +154,7 @@ def test_memory_that_cannot_be_told_is_not_fitted(rows):
     few = growth_laws.per_sample(rows).query("work == 'rigidity'")
     assert few["n"][few["megabytes"].notna()].tolist() == [256, 512, 1024, 2048]
     short = rows[(rows["work"] == "bare") | (rows["n"] < 512)]
-    assert growth_laws.exponent_text(growth_laws.laws(short)["rigidity"][1]) == "–"
+    assert growth_laws.exponent_text(growth_laws.fit_laws(short)["rigidity"][1]) == "–"
 
 
 def test_every_work_has_its_place_in_the_figure(rows, tmp_path):
