@@ -1,14 +1,15 @@
-"""F_Th of a force balance: what is left of max|F| when a relaxation stops. A, Appendix A.
+"""F_Th of a force balance: the max|F| below which a relaxation stops. A, Appendix A.
 
 A packing is taken from one balance affinely to the next φ and relaxed until max|F| < F_Th: by A's
-FIRE, or by FIRE and then Newton's method (`relaxation.frictionless`). The state is off
-by u = J⁻¹ F, so errors fall as F_Th, faster at loose ones, where contacts still open and close;
-Newton's last step squares what is left, and lands far below its F_Th. Near jamming, as here, J is
-soft and contacts many that hardly touch: F_Th weighs most there.
+FIRE, or by FIRE and then Newton's method (`relaxation.frictionless`). The state is displaced by
+u = J⁻¹ F from the balance, so that errors are proportional to F_Th; at large F_Th, where contacts
+still open and close, they fall faster. The last step of Newton's method squares the error and ends
+far below F_Th. Near jamming, as here, J is soft and many contacts hardly touch, and F_Th
+matters most.
 
     g             |g(F_Th) − g| / |g|
-    eigenvalues   the largest |λ_n(F_Th) − λ_n| / λ_n of the ten lowest of J beside the translations
-    contacts      those that only one of the two states has, in parts of all: mean over samples
+    eigenvalues   the largest |λ_n(F_Th) − λ_n| / λ_n of the ten lowest of J but its translations
+    contacts      fraction of the contacts that only one of the two states has, mean over samples
 
 Reference: the balance that the same relaxation leads to with F_Th = 1e-14, by Newton's method,
 iterated until max|F| does not fall any more.
@@ -120,9 +121,9 @@ def measure(size: Size) -> Iterator[DiagramRow]:
             for tolerance in TOLERANCES:
                 done = in_fresh_process(timed_errors, name, tolerance, packings, exact)
                 default = (name, tolerance) == (NAMES[DEFAULT.relaxation], DEFAULT.force_tolerance)
-                for what, samples in zip(QUANTITIES, done.value, strict=True):
-                    curve = f"{name}, {what}{size_suffix(n, size)}"
-                    mean = what == CONTACTS
+                for quantity, samples in zip(QUANTITIES, done.value, strict=True):
+                    curve = f"{name}, {quantity}{size_suffix(n, size)}"
+                    mean = quantity == CONTACTS
                     yield summarise(curve, tolerance, samples, done.megabytes, default, mean)
 
 

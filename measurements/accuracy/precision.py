@@ -1,4 +1,4 @@
-"""Single or double precision, where that is a choice: the forces of FIRE, the state of dynamics.
+"""Single or double precision where there is a choice: forces of FIRE, velocities of dynamics.
 
 Positions are integers of 64 bits in any case, so that a difference of two is exact. In numbers of
 p bits a distance r ~ d is rounded to 2^-p d, and so is the overlap ξ = (d_i + d_j)/2 − r, whose
@@ -14,7 +14,7 @@ and the shipped kernel of frictional dynamics, with velocities, rotations and ne
 either precision (contacts are computed, and springs kept, in double). Measured are
 
     forces     root mean square of F − F_exact over grains, / f̄ (mean contact force)
-    max|F|     what is left when it no longer falls, / f̄, evaluated in double
+    max|F|     its value when it no longer falls, / f̄, evaluated in double
     g          |g/g_ref − 1| of the state so reached; dynamics: of a simulated step strain
 
 Reference: forces in extended precision; the balance, or the step, by Newton's method to 1e-14.
@@ -133,9 +133,9 @@ def measure(size: Size) -> Iterator[DiagramRow]:
         for name, loop in LOOP_TESTS.items():
             for precision in loop.precisions:
                 done = in_fresh_process(errors_of_packings, name, precision, n, size.seeds)
-                for what in loop.quantities:
-                    samples = [TimedError(e.seconds, getattr(e, what)) for e in done.value]
-                    curve = f"{name}, {QUANTITY_NAMES[what]}{size_suffix(n, size)}"
+                for quantity in loop.quantities:
+                    samples = [TimedError(e.seconds, getattr(e, quantity)) for e in done.value]
+                    curve = f"{name}, {QUANTITY_NAMES[quantity]}{size_suffix(n, size)}"
                     default = precision == DOUBLE
                     yield summarise(curve, precision.bits, samples, done.megabytes, default)
 

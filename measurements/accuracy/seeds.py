@@ -55,8 +55,8 @@ def measure(size: Size) -> Iterator[DiagramRow]:
         for seeds in ensemble_sizes(len(found)):
             errors = errors_of_means(found[:, occupied], seeds)
             for name, (g, *density) in zip(("found", "stated"), errors, strict=True):
-                for what, error in (("G", g), (r"$D(\omega)$", np.median(density, axis=0))):
-                    curve = f"{name}, {what}{size_suffix(n, size)}"
+                for quantity, error in (("G", g), (r"$D(\omega)$", np.median(density, axis=0))):
+                    curve = f"{name}, {quantity}{size_suffix(n, size)}"
                     point = seeds * cost, done.megabytes, *map(float, error)
                     yield DiagramRow(
                         curve, seeds, *point, len(found), failed, seeds == DEFAULT_SEEDS

@@ -210,26 +210,26 @@ def measure(size: Size) -> Iterator[DiagramRow]:
     """The error of either quantity, of every method and setting."""
     for n in size.n:
         packings = [compressed(n, seed, PHI) for seed in range(size.seeds)]
-        for what in QUANTITIES:
-            for line in _measured(packings, what):
+        for quantity in QUANTITIES:
+            for line in _measured(packings, quantity):
                 yield line._replace(curve=f"{line.curve}{size_suffix(n, size)}")
 
 
-def _measured(packings: list[Packing], what: str) -> Iterator[DiagramRow]:
-    kt, error = QUANTITIES[what]
+def _measured(packings: list[Packing], quantity: str) -> Iterator[DiagramRow]:
+    kt, error = QUANTITIES[quantity]
     interaction = Interaction.from_law(ContactLaw(kt=kt))
     problems = [Eigenproblem.from_packing(packing, interaction) for packing in packings]
     exact = [in_fresh_process(reference, eigenproblem).value for eigenproblem in problems]
     modes = min(eigenproblem.size for eigenproblem in problems)
     for name, method in METHODS.items():
-        for setting in method.at(modes) if what in method.gives else ():
+        for setting in method.at(modes) if quantity in method.gives else ():
             done = in_fresh_process(timed_spectra, name, setting, problems)
             pairs = zip(done.value, exact, strict=True)
             samples = [
                 TimedError(seconds, error(found, known)) for (found, seconds), known in pairs
             ]
             default = method.is_default(setting, modes)
-            yield summarise(f"{name}, {what}", setting, samples, done.megabytes, default)
+            yield summarise(f"{name}, {quantity}", setting, samples, done.megabytes, default)
 
 
 def timed_spectra(

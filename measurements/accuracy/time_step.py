@@ -2,10 +2,10 @@
 
     Q̇ = q̇ + Δt f̃(q, Q̇)/2,   q → q + Δt Q̇,   q̇ → Q̇ + Δt f̃(q, Q̇)/2           A (B7)–(B9)
 
-A finds a step right to order Δt² in q and Δt in q̇ (A18): it errs by Δt³ and Δt². Over a given time
-the errors of all steps add up, to order Δt in both. Without damping f does not depend on q̇, q̇ gains
-an order in a step, and a motion has order 2. Beyond the limit Δt = 2/ω_max a mode grows in every
-step; a setting whose error exceeds the motion has failed.
+According to A a step is right to order Δt² in q and Δt in q̇ (A18): its errors are of order Δt³ and
+Δt². Over a given time the errors of all steps add up, to order Δt in both. Without damping f does
+not depend on q̇, a step is right to one more order in q̇, and a motion has order 2. Beyond the limit
+Δt = 2/ω_max a mode grows in every step; a setting whose error exceeds the motion itself has failed.
 
     q, q̇        |Δq| and |Δq̇| in units of |q|, |q̇| at the start, after `DURATION` or after one step
     growth      |ω_i(Δt)/ω_i − 1| of an unstable state of C (`growth`)
