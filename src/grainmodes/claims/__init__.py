@@ -1,4 +1,4 @@
-"""Claims, each a check on an ensemble: a package for every paper, and what all of them share."""
+"""Claims of the papers, each checked on an ensemble: a package per paper, and what they share."""
 
 from __future__ import annotations
 
@@ -15,6 +15,6 @@ def check(ensemble, claims: tuple[Claim, ...] = CLAIMS) -> list[Verdict]:
     Args:
         ensemble: dataset of `grainmodes.ensemble.open_ensemble`; claims whose observables or
             points it lacks are "not tested".
-        claims: all, or those of a paper, such as `paper_a.CLAIMS`.
+        claims: all claims, or those of one paper, such as `paper_a.CLAIMS`.
     """
     return [claim(ensemble) for claim in claims]

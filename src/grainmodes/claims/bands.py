@@ -1,9 +1,9 @@
 """The modes of a point, split into the rotational band (psi^R > 1/2) and the translational band.
 
-Where an ensemble holds counts in bins instead of eigenvalues, a bin of c modes with mean psi^R is
-read as c psi^R rotational modes and the rest translational, spread over it evenly in log(omega):
-right where modes are of one kind, and resolved to a bin. Where bins have no psi^R and k_T/k_N is
-at most 1e-6, the gap between the bands tells them apart.
+If an ensemble holds counts in bins instead of eigenvalues, a bin of c modes with mean psi^R counts
+as c psi^R rotational modes and c (1 - psi^R) translational ones, spread over the bin evenly in
+log(omega). This is correct where the modes are of one kind, and resolved to the width of a bin. If
+the bins have no psi^R and k_T/k_N is at most 1e-6, the gap between the bands separates them.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ SEPARABLE = "separable"
 """Name of the variable that marks samples with two bands."""
 
 MAX_GAP_KAPPA = 1e-6
-"""k_T/k_N up to which the bands of a spectrum that was only counted are told apart by the gap."""
+"""k_T/k_N up to which the gap separates the bands of a spectrum that was only counted."""
 
 GAP_FREQUENCY = 3.0
-"""omega / omega_R in the gap: the rotational band of Hertzian grains ends below 1.5."""
+"""omega / omega_R inside the gap: the rotational band of Hertzian grains ends below 1.5."""
 
 MAX_KAPPA = {
     "psi_rotational": np.inf,
@@ -38,11 +38,14 @@ MAX_KAPPA = {
 """Variable → k_T/k_N up to which it separates the bands."""
 
 QUANTILES = np.linspace(0.1, 0.9, 9)
-"""Shares of a band at which two bands are compared: its ends hang on single modes."""
+"""Quantiles at which two bands are compared; the ends of a band depend on single modes."""
 
 
 class Modes(NamedTuple):
-    """Vibrations of S samples, (S, M), NaN where there is none; zero modes are left out."""
+    """The vibrations of S samples, without zero modes: (S, M) each, NaN where there is no mode.
+
+    `frequency` in 1/t_0, `psi_rotational` between 0 and 1.
+    """
 
     frequency: np.ndarray
     psi_rotational: np.ndarray
@@ -59,24 +62,24 @@ class Modes(NamedTuple):
 
 
 def separable(ensemble: xr.Dataset) -> xr.Dataset:
-    """The ensemble with a variable `SEPARABLE`, 1 for samples whose two bands can be told apart.
+    """The ensemble with a variable `SEPARABLE`, 1 for samples whose two bands can be separated.
 
     Raises:
-        NotTested: no sample is.
+        NotTested: there is no such sample.
     """
     found = [
-        _known(ensemble[name]) & (ensemble["kt"] <= most)
-        for name, most in MAX_KAPPA.items()
+        _known(ensemble[name]) & (ensemble["kt"] <= max_kappa)
+        for name, max_kappa in MAX_KAPPA.items()
         if name in ensemble
     ]
     if not any((known & (ensemble["kt"] > 0.0)).any() for known in found):
-        raise NotTested("psi_rotational (observables.spectrum: modes, or bands)")
+        raise NotTested("psi_rotational (observables.spectrum: modes, or binned_averages)")
     known = sum(found) > 0
     return ensemble.assign({SEPARABLE: known.where(known)})
 
 
 def _known(values: xr.DataArray) -> xr.DataArray:
-    """Whether a sample has values; of modes the first vibration tells, of bins any."""
+    """Whether a sample has values: at the first vibration of a spectrum of modes, or in any bin."""
     if "mode" in values.dims:
         return values.isel(mode=averages.TRANSLATIONS).notnull()
     return values.notnull().any("bin")
@@ -121,7 +124,7 @@ def _from_bins(edges: np.ndarray, count: np.ndarray, psi: np.ndarray) -> Modes:
 
 
 def _spread(edges: np.ndarray, count: np.ndarray, psi: np.ndarray) -> np.ndarray:
-    """Frequencies and psi of one sample, (2, M); in a bin of both kinds the bands overlap."""
+    """Frequencies and psi^R of one sample, (2, M); in a bin with both kinds the bands overlap."""
     filled = np.nonzero(count)[0]
     middles = [(np.arange(count[b]) + 0.5) / count[b] for b in filled]
     kinds = [(m > 1.0 - psi[b]).astype(float) for b, m in zip(filled, middles, strict=True)]
@@ -132,18 +135,18 @@ def _spread(edges: np.ndarray, count: np.ndarray, psi: np.ndarray) -> np.ndarray
 
 
 def per_sample(statistic, *bands: np.ndarray) -> np.ndarray:
-    """A statistic of the frequencies of each sample, NaN where one band of it is empty: (S, ...).
+    """A statistic of the frequencies of each sample: (S, ...), NaN where a band is empty.
 
     Args:
-        statistic: function of one array of frequencies, ascending, for each of `bands`.
+        statistic: function of as many arrays of frequencies, each ascending, as there are bands.
         bands: arrays (S, M), NaN where there is no mode.
     """
-    rows = [[np.sort(row[np.isfinite(row)]) for row in rows] for rows in zip(*bands, strict=True)]
-    empty = [any(not row.size for row in of) for of in rows]
-    found = [None if none else statistic(*of) for of, none in zip(rows, empty, strict=True)]
-    like = next((value for value in found if value is not None), np.nan)
-    blank = np.full(np.shape(like), np.nan)
-    return np.array([blank if value is None else value for value in found])
+    values = []
+    for rows in zip(*bands, strict=True):
+        frequencies = [np.sort(row[np.isfinite(row)]) for row in rows]
+        values.append(statistic(*frequencies) if all(map(len, frequencies)) else None)
+    shape = np.shape(next((value for value in values if value is not None), np.nan))
+    return np.array([np.full(shape, np.nan) if value is None else value for value in values])
 
 
 def median_log(band: np.ndarray) -> np.ndarray:
@@ -151,13 +154,13 @@ def median_log(band: np.ndarray) -> np.ndarray:
     return per_sample(lambda row: np.log10(np.median(row)), band)
 
 
-def log_quantiles(band: np.ndarray, shares: np.ndarray = QUANTILES) -> np.ndarray:
-    """log(omega) below which the given shares of a band lie, (S, len(shares))."""
-    return per_sample(lambda row: np.log(np.quantile(row, shares)), band)
+def log_quantiles(band: np.ndarray, quantiles: np.ndarray = QUANTILES) -> np.ndarray:
+    """log(omega) at the given quantiles of a band of each sample, (S, len(quantiles))."""
+    return per_sample(lambda row: np.log(np.quantile(row, quantiles)), band)
 
 
 def mean_in(values: np.ndarray, where: np.ndarray) -> Estimate:
-    """Mean over samples of the mean of (S, M) values over the modes `where`."""
+    """Mean over samples of the mean over the modes `where` of (S, M) values."""
     with np.errstate(invalid="ignore"):
         total = np.where(where, values, 0.0).sum(axis=1)
         return mean(total / where.sum(axis=1))

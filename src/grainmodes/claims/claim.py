@@ -1,14 +1,14 @@
-"""A claim of the paper, judged: parts with an uncertainty against a criterion, and one verdict.
+"""How a claim of a paper is judged: parts with a standard error, a criterion, and one verdict.
 
 A claim is a function of an ensemble that returns an `Outcome`. The first line of its docstring is
-the statement that stands in the table, its paragraph `Criterion:` the criterion, so that text and
-check stand in one place; `claim` wraps it into a function that returns a `Verdict`.
+the statement that is printed in the table, and its paragraph `Criterion:` is the criterion, so that
+text and check are in one place. `claim` turns it into a function that returns a `Verdict`.
 
-A part is a number with its standard error and the interval that the claim gives it. It holds if
-it lies inside by two standard errors, is contradicted if it lies outside by three, and is not
-resolved between or without an error. Three, because a claim has many parts: with ten samples one
-part in seventy lies that far outside by chance. A claim holds if all its parts do and is
-contradicted by any.
+A part is a number with its standard error and the interval in which the claim expects it. It holds
+if it lies inside by at least two standard errors, and is contradicted if it lies outside by more
+than three; otherwise, or without an error, it is not resolved. The limit is three because a claim
+has many parts: with ten samples, one part in seventy lies that far outside by chance. A claim holds
+if all its parts hold, and is contradicted if one of them is.
 """
 
 from __future__ import annotations
@@ -31,30 +31,30 @@ CONTRADICTED = "contradicted"
 NOT_RESOLVED = "not resolved at this size"
 NOT_TESTED = "not tested"
 
-SUMMARY_VERBS = {
-    HOLDS: "hold, the nearest to the limit first",
-    NOT_RESOLVED: "are not resolved",
-    CONTRADICTED: "are contradicted",
+SUMMARIES = {
+    HOLDS: ("hold", "nearest to the limit"),
+    NOT_RESOLVED: ("are not resolved", "farthest outside"),
+    CONTRADICTED: ("are contradicted", "farthest outside"),
 }
-"""What an explanation says of the parts that decided; the verdict of a claim is its part's that
-stands last here."""
+"""Verdict → what an explanation says about the parts that have it and about the first of them, in
+ascending severity: the verdict of a claim is the severest among its parts."""
 
 ERRORS_TO_HOLD = 2.0
-"""Standard errors by which a part must lie inside its interval to hold."""
+"""Number of standard errors by which a part must lie inside its interval to hold."""
 
 ERRORS_TO_CONTRADICT = 3.0
-"""Standard errors by which a part must lie outside its interval to contradict."""
+"""Number of standard errors by which a part must lie outside its interval to contradict."""
 
 MAX_NAMED_PARTS = 4
-"""Parts of one verdict that an explanation names one by one."""
+"""Largest number of parts that an explanation lists."""
 
 
 class NotTested(Exception):
-    """The ensemble lacks what a claim needs; the message names it."""
+    """The ensemble lacks what a claim needs; the message says what."""
 
 
 class Part(NamedTuple):
-    """One number of a claim: where it was measured, and the interval that the claim gives it."""
+    """One number of a claim: where it was measured, and the interval in which it is expected."""
 
     where: str
     estimate: Estimate
@@ -78,20 +78,20 @@ class Part(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """All parts of a claim, and a sentence or two with the numbers behind them."""
+    """All parts of a claim, and a note: a sentence or two with the numbers behind them."""
 
     parts: list[Part]
     note: str = ""
 
 
 def all_parts(kinds: dict[str, list[Part]]) -> list[Part]:
-    """The parts of a claim that says several things; there must be some of each.
+    """The parts of a claim with several statements; every statement must have at least one.
 
     Args:
-        kinds: what the ensemble needs for some parts → these parts.
+        kinds: what a statement needs in the ensemble → its parts.
 
     Raises:
-        NotTested: there are no parts of some kind.
+        NotTested: a statement has no parts.
     """
     absent = [name for name, parts in kinds.items() if not parts]
     if absent:
@@ -101,10 +101,11 @@ def all_parts(kinds: dict[str, list[Part]]) -> list[Part]:
 
 @dataclass(frozen=True)
 class Verdict:
-    """A row of the table.
+    """A row of the table of claims.
 
-    `measured` is the part that decided: of a claim that holds the one nearest to its limit, else
-    the one farthest outside; NaN where nothing was asked. `where` names it.
+    `measured` is the number of the part that decided: if the claim holds, the one nearest to its
+    limit, otherwise the one farthest outside; NaN if the claim was not tested. `uncertainty` is its
+    standard error, and `where` says where it was measured.
     """
 
     claim: str
@@ -125,12 +126,12 @@ def claim(name: str, unit: str) -> Callable[[Callable[[xr.Dataset], Outcome]], C
     """Make a function that returns an `Outcome` return the `Verdict` on claim `name`.
 
     Args:
-        name: as A6, the sixth claim of paper A.
-        unit: of the measured number.
+        name: such as A6 for the sixth claim of paper A.
+        unit: of the measured number; "1" for none.
     """
 
-    def judged_by(function: Callable[[xr.Dataset], Outcome]) -> Claim:
-        statement, criterion = _words(function)
+    def decorate(function: Callable[[xr.Dataset], Outcome]) -> Claim:
+        statement, criterion = _statement_and_criterion(function)
 
         @wraps(function)
         def judge(ensemble: xr.Dataset) -> Verdict:
@@ -140,10 +141,10 @@ def claim(name: str, unit: str) -> Callable[[Callable[[xr.Dataset], Outcome]], C
 
         return judge
 
-    return judged_by
+    return decorate
 
 
-def _words(function: Callable) -> tuple[str, str]:
+def _statement_and_criterion(function: Callable) -> tuple[str, str]:
     paragraphs = [" ".join(text.split()) for text in inspect.getdoc(function).split("\n\n")]
     criterion = next(text for text in paragraphs if text.startswith("Criterion: "))
     return paragraphs[0], criterion.removeprefix("Criterion: ")
@@ -154,17 +155,19 @@ def _judged(function: Callable, ensemble: xr.Dataset) -> tuple[Part, str, str]:
         parts, note = function(ensemble)
         if not parts:
             raise NotTested("points with at least two jammed samples in the range of the claim")
-    except NotTested as lacking:
-        nothing = Part("", Estimate(np.nan, np.nan))
-        return nothing, NOT_TESTED, f"The ensemble lacks {lacking}."
-    severity = list(SUMMARY_VERBS)
+    except NotTested as missing:
+        no_part = Part("", Estimate(np.nan, np.nan))
+        return no_part, NOT_TESTED, f"The ensemble lacks {missing}."
+    severity = list(SUMMARIES)
     worst = max(parts, key=lambda part: (severity.index(part.verdict), -part.margin))
     return worst, worst.verdict, f"{_summary(parts, worst)} {note}".strip()
 
 
 def _summary(parts: list[Part], worst: Part) -> str:
-    """How many parts share the verdict, and the worst of them by name, the worst first."""
+    """How many parts have the verdict of the worst one, and a list of them, the worst first."""
     same = sorted((p for p in parts if p.verdict == worst.verdict), key=lambda part: part.margin)
     named = "; ".join(f"{part.where}: {part.estimate}" for part in same[:MAX_NAMED_PARTS])
     rest = "; ..." if len(same) > MAX_NAMED_PARTS else ""
-    return f"{len(same)} of {len(parts)} {SUMMARY_VERBS[worst.verdict]}: {named}{rest}."
+    verb, first = SUMMARIES[worst.verdict]
+    order = f", the {first} first" if len(same) > 1 else ""
+    return f"Parts that {verb}: {len(same)} of {len(parts)}{order}. {named}{rest}."

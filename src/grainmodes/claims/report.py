@@ -1,4 +1,4 @@
-"""The table of verdicts: as text on a terminal, as a page in Markdown, as CSV."""
+"""The table of verdicts as text for a terminal, as a page in Markdown, and as CSV."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ COLUMNS = [field.name for field in fields(Verdict)]
 
 
 def as_text(verdicts: list[Verdict]) -> str:
-    """One claim a line: number, verdict, measured number, statement."""
+    """One line per claim: its name, verdict, measured number and statement."""
     rows = [(v.claim, v.verdict, _measured(v), v.statement) for v in verdicts]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
@@ -27,7 +27,7 @@ def as_text(verdicts: list[Verdict]) -> str:
 
 
 def as_markdown(verdicts: list[Verdict]) -> str:
-    """The table, and below it what was found for each claim."""
+    """The table, and below it the explanation of every verdict."""
     head = (
         "| claim | statement | measured | criterion | verdict |\n| --- | --- | --- | --- | --- |\n"
     )
@@ -38,7 +38,7 @@ def as_markdown(verdicts: list[Verdict]) -> str:
 
 
 def as_csv(verdicts: list[Verdict]) -> str:
-    """A row per claim, with the columns `COLUMNS`."""
+    """One row per claim, with the columns `COLUMNS`."""
     out = io.StringIO()
     writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
     writer.writeheader()
@@ -47,11 +47,11 @@ def as_csv(verdicts: list[Verdict]) -> str:
 
 
 FORMS: dict[str, Callable[[list[Verdict]], str]] = {".md": as_markdown, ".csv": as_csv}
-"""Suffix of a file → what stands in it."""
+"""Suffix of a file → function that returns its content."""
 
 
 def form(path: Path) -> Callable[[list[Verdict]], str]:
-    """What stands in a file, by its suffix.
+    """The function that returns the content of a file, by its suffix.
 
     Raises:
         ValueError: the suffix is neither .md nor .csv.
@@ -62,7 +62,7 @@ def form(path: Path) -> Callable[[list[Verdict]], str]:
 
 
 def write(verdicts: list[Verdict], path: Path) -> None:
-    """Write a page or a table: all of it or nothing.
+    """Write a page or a table, all of it or nothing.
 
     Raises:
         ValueError: as `form`.

@@ -1,7 +1,7 @@
 """The samples of an ensemble at one N, seed by seed.
 
-Rows are always those of the ensemble's seeds, NaN where a sample is not converged or not jammed, so
-that two arrays of one N belong to the same packings row by row.
+The rows of every array are the seeds of the ensemble, NaN where a sample is not converged or not
+jammed, so that two arrays of one N belong to the same packings row by row.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 MIN_SAMPLES = 2
-"""Samples without which a point has no error, and is left out."""
+"""Number of samples below which a point has no standard error and is left out."""
 
 SAMPLE_DIMENSIONS = ("phi", "kt", "seed")
 """Dimensions of a number per sample, at one N."""
@@ -26,7 +26,7 @@ ABOVE_ZERO = 1e-300
 """Lower end of "every k_T > 0"."""
 
 RANGE_TOLERANCE = 1.000001
-"""Factor by which a k_T of the grid may miss the end of a range."""
+"""Factor by which a k_T of the grid may lie beyond the end of a range, because of round-off."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,10 @@ class Samples:
     n: int
 
     def values(self, name: str, phi: float, kappa: float) -> np.ndarray:
-        """A variable at one point: (S,), or (S, ...) with its further dimensions."""
+        """A variable at one point: (S,), or (S, ...) with its further dimensions.
+
+        NaN for samples that are not converged or not jammed.
+        """
         place = {"phi": self._place("phi", phi), "kt": self._place("kt", kappa)}
         rows = self._rows(name).isel(place).transpose("seed", ...)
         return rows.where(self._used().isel(place)).to_numpy()
@@ -45,7 +48,7 @@ class Samples:
     def points(
         self, name: str, low: float = 0.0, high: float = np.inf
     ) -> list[tuple[float, float]]:
-        """(phi, kappa), ascending, with samples of a variable and k_T/k_N in [low, high]."""
+        """The (phi, kappa) with samples of a variable and kappa in [low, high], ascending."""
         rows = self._rows(name)
         known = rows.notnull().any([axis for axis in rows.dims if axis not in SAMPLE_DIMENSIONS])
         enough = (known & self._used()).sum("seed").transpose("phi", "kt").to_numpy() >= MIN_SAMPLES
@@ -57,21 +60,23 @@ class Samples:
 
     def phis(self, name: str, kappa: float | None = None) -> list[float]:
         """Area fractions at which a variable has samples, at one k_T or any; ascending."""
-        return sorted({phi for phi, of in self.points(name) if kappa in (None, of)})
+        return sorted({phi for phi, here in self.points(name) if kappa in (None, here)})
 
     def kappas(
         self, name: str, phi: float | None = None, low: float = 0.0, high: float = np.inf
     ) -> list[float]:
         """Values of k_T/k_N in [low, high] with samples, at one φ or any; ascending."""
-        return sorted({of for here, of in self.points(name, low, high) if phi in (None, here)})
+        return sorted(
+            {kappa for here, kappa in self.points(name, low, high) if phi in (None, here)}
+        )
 
     def common_kappas(self, name: str, phis: tuple[float, float], low: float = 0.0) -> list[float]:
-        """Values of k_T/k_N from `low` on at which a variable has samples at both φ."""
+        """Values of k_T/k_N, at least `low`, with samples of a variable at both φ; ascending."""
         first, last = (self.kappas(name, phi, low) for phi in phis)
         return [kappa for kappa in first if kappa in last]
 
     def _rows(self, name: str) -> xr.Variable:
-        # a Variable carries no coordinates to align, which would take most of the time
+        # A Variable has no coordinates. Aligning them would take most of the time.
         return self.ensemble[name].variable.isel(n=self._place("n", self.n))
 
     def _used(self) -> xr.Variable:
@@ -82,7 +87,7 @@ class Samples:
 
 
 def best_sampled(ensemble: xr.Dataset, *names: str) -> Samples:
-    """The samples of the N with most points that have all the variables, the largest of several.
+    """The samples of the N that has all the variables at most points; of several, the largest N.
 
     Raises:
         NotTested: the ensemble lacks one of the variables, or samples of them.
@@ -96,10 +101,10 @@ def best_sampled(ensemble: xr.Dataset, *names: str) -> Samples:
 
 
 def samples_by_size(ensemble: xr.Dataset, *names: str) -> list[Samples]:
-    """The samples of every N at which all the variables have some, N ascending.
+    """The samples of every N that has all the variables, N ascending.
 
     Raises:
-        NotTested: as `best_sampled`.
+        NotTested: the ensemble lacks one of the variables, or samples of them.
     """
     absent = [name for name in names if name not in ensemble]
     if absent:
@@ -112,6 +117,6 @@ def samples_by_size(ensemble: xr.Dataset, *names: str) -> list[Samples]:
 
 
 def label(phi: float | None = None, kappa: float | None = None) -> str:
-    """The name of a point in an explanation."""
+    """How an explanation names a point, such as "φ = 0.9, κ = 1e-08"."""
     words = {"φ": phi, "κ": kappa}
     return ", ".join(f"{name} = {value:g}" for name, value in words.items() if value is not None)

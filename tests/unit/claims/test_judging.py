@@ -36,7 +36,10 @@ def test_the_worst_part_decides_and_is_named():
     verdict = three_numbers(None)
     assert (verdict.verdict, verdict.where, verdict.measured) == (CONTRADICTED, "worse", 4.0)
     assert (verdict.statement, verdict.criterion) == ("Three numbers.", "below 1.")
-    assert "2 of 3 are contradicted: worse" in verdict.explanation
+    assert (
+        "are contradicted: 2 of 3, the farthest outside first. worse: 4.00(10); bad: 3.00(10)."
+        in verdict.explanation
+    )
 
 
 def test_the_jackknife_of_a_mean_is_its_standard_error():

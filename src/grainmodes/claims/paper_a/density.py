@@ -1,4 +1,4 @@
-"""Claims of paper A on what else shapes the density of states: A13 to A15.
+"""Claims of paper A on rattlers, system size and φ in the density of states: A13 to A15.
 
 symbol    name                                          paper A
 omega     frequency = eigenvalue^(1/2)                  Sec. III A
@@ -33,17 +33,18 @@ from grainmodes.statistics import averages
 from grainmodes.statistics.estimates import Estimate, mean
 
 MAX_LOCALISED_GRAINS = 2.0
-"""N p below which a mode sits on one grain."""
+"""N p below which a mode counts as localised on one grain."""
 
 
 @claim("A13", unit="1")
 def localised_rattlers(ensemble) -> Outcome:
-    """Modes of rattlers have p ≈ 1/N, at ωt_0 ≈ 1e-5 for k_T/k_N = 1e-8, 1e-3 for 1e-4 (Fig. 14).
+    """Modes of rattlers have p ≈ 1/N; ωt_0 ≈ 1e-5 at k_T/k_N = 1e-8 and 1e-3 at 1e-4 (Fig. 14).
 
-    Both frequencies are ω_R / 10. Of the modes that a spectrum has only with its rattlers kept, the
-    share that has N p < 2 and ω within half a decade of ω_R / 10; all φ of a seed together.
+    Both frequencies are ω_R / 10. The modes of rattlers are those that a spectrum has only if its
+    rattlers are kept. The measured number is the share of them with N p < 2 and ω within half a
+    decade of ω_R / 10, for all φ of a seed together.
 
-    Criterion: the share is above one half.
+    Criterion: The share is above one half.
     """
     names = ("eigenvalue_rattlers", "participation_ratio_rattlers", "mode_count_rattlers")
     samples = best_sampled(ensemble, *names, "mode_count")
@@ -55,12 +56,12 @@ def localised_rattlers(ensemble) -> Outcome:
         share = np.divide(near, of_rattlers, np.full_like(near, np.nan), where=of_rattlers > 0)
         parts.append(Part(f"share at {label(kappa=kappa)}", mean(share), 0.5))
         zero, added = zero + vanishing.sum(), added + of_rattlers.sum()
-    note = f"Of {added:.0f} modes of rattlers {zero:.0f} are zero modes, whose p is not defined."
+    note = f"Of {added:.0f} modes of rattlers, {zero:.0f} are zero modes, whose p is not defined."
     return Outcome(parts, note)
 
 
 def _rattler_modes(samples: Samples, phi: float, kappa: float) -> np.ndarray:
-    """Of each sample, (3, S): localised modes near ω_R / 10, zero modes, modes of rattlers."""
+    """Numbers (3, S) of localised modes near ω_R / 10, of zero modes, and of modes of rattlers."""
     eigenvalue, participation, count = (
         samples.values(f"{name}_rattlers", phi, kappa)
         for name in ("eigenvalue", "participation_ratio", "mode_count")
@@ -76,42 +77,44 @@ def _rattler_modes(samples: Samples, phi: float, kappa: float) -> np.ndarray:
 def independent_of_size(ensemble) -> Outcome:
     """D does not depend on N (Fig. 15).
 
-    log of ω at nine shares (0.1 ... 0.9) of each band, and of the share of rotational modes: the
-    difference between the smallest and the largest N that is largest among these, at the k_T/k_N
-    closest to 1e-8.
+    These are the differences of log ω between the smallest and the largest N at nine quantiles
+    (0.1 ... 0.9) of each band, at the k_T/k_N closest to 1e-8.
 
-    Criterion: each difference is below 5 %.
+    Criterion: Each difference is within ±5 %.
     """
-    of_n = samples_by_size(separable(ensemble), SEPARABLE)
-    common = set.intersection(*(set(s.points(SEPARABLE, ABOVE_ZERO)) for s in (of_n[0], of_n[-1])))
-    if len(of_n) < 2 or not common:
+    by_size = samples_by_size(separable(ensemble), SEPARABLE)
+    common = set.intersection(
+        *(set(s.points(SEPARABLE, ABOVE_ZERO)) for s in (by_size[0], by_size[-1]))
+    )
+    if len(by_size) < 2 or not common:
         raise NotTested("spectra of two N at one φ and k_T")
     point = max(common, key=lambda point: (point[0], -abs(np.log(point[1] / WEAK_KAPPA))))
-    small, large = (modes(samples, *point) for samples in (of_n[0], of_n[-1]))
+    small, large = (modes(samples, *point) for samples in (by_size[0], by_size[-1]))
     parts = [
-        Part(f"{band} ω at share {share:.1f}, {label(*point)}", difference, -0.05, 0.05)
+        Part(f"{band} ω at quantile {quantile:.1f}, {label(*point)}", difference, -0.05, 0.05)
         for band in ("rotational", "translational")
-        for share, difference in zip(QUANTILES, _differences(small, large, band), strict=True)
+        for quantile, difference in zip(QUANTILES, _differences(small, large, band), strict=True)
     ]
-    return Outcome(parts, f"Compared are N = {of_n[0].n} and N = {of_n[-1].n}.")
+    return Outcome(parts, f"The systems have N = {by_size[0].n} and N = {by_size[-1].n}.")
 
 
 def _differences(small: Modes, large: Modes, band: str) -> list[Estimate]:
-    """log omega of the large minus that of the small system at `QUANTILES`; no seed is shared."""
-    pairs = zip(*(log_quantiles(getattr(of, band)).T for of in (small, large)), strict=True)
+    """log omega of the large minus that of the small system at `QUANTILES`; they share no seed."""
+    pairs = zip(*(log_quantiles(getattr(size, band)).T for size in (small, large)), strict=True)
     estimates = [(mean(a), mean(b)) for a, b in pairs]
     return [Estimate(b.value - a.value, np.hypot(a.error, b.error)) for a, b in estimates]
 
 
 @claim("A15", unit="decades")
 def towards_jamming(ensemble) -> Outcome:
-    """Towards jamming the rotational band moves down, the translational plateau widens (Fig. 16).
+    """Towards jamming the rotational band moves down and the translational band widens (Fig. 16).
 
-    log10 of the median rotational ω at the highest φ over that at the lowest; and log10 of ω at
-    0.9 over ω at 0.1 of the translational band, lowest φ minus highest φ; paired by seed, at the
-    smallest k_T.
+    The shift of the rotational band is log10 of its median ω at the highest φ over that at the
+    lowest φ. The width of the translational band is log10 of ω at its quantile 0.9 over ω at 0.1;
+    the measured number is the width at the lowest φ minus that at the highest. Both are paired by
+    seed, at the smallest k_T.
 
-    Criterion: both are above 0.
+    Criterion: Both numbers are above 0.
     """
     samples = best_sampled(separable(ensemble), SEPARABLE)
     kappa = min(_at_most_phis(samples), default=0.0)
@@ -121,10 +124,10 @@ def towards_jamming(ensemble) -> Outcome:
     low, high = (modes(samples, phi, kappa) for phi in (phis[0], phis[-1]))
     down = mean(median_log(high.rotational) - median_log(low.rotational))
     wider = mean(_width(low.translational) - _width(high.translational))
-    where = f"φ = {phis[0]:g} against {phis[-1]:g}, {label(kappa=kappa)}"
+    where = f"φ = {phis[0]:g} and {phis[-1]:g}, {label(kappa=kappa)}"
     return Outcome(
         [Part(f"band, {where}", down, 0.0), Part(f"plateau, {where}", wider, 0.0)],
-        f"The rotational band moves by {down}, the plateau widens by {wider} decades.",
+        f"The rotational band moves by {down} and the plateau widens by {wider} decades.",
     )
 
 
@@ -136,6 +139,6 @@ def _at_most_phis(samples: Samples) -> list[float]:
 
 
 def _width(band: np.ndarray) -> np.ndarray:
-    """log10 of omega at share 0.9 over omega at share 0.1 of each sample, (S,)."""
+    """log10 of omega at quantile 0.9 over omega at quantile 0.1 of each sample, (S,)."""
     ends = log_quantiles(band, np.array([0.1, 0.9]))
     return (ends[:, 1] - ends[:, 0]) / np.log(10.0)

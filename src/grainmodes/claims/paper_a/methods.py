@@ -19,10 +19,10 @@ from grainmodes.statistics.binning import occupation
 from grainmodes.statistics.estimates import Estimate, jackknife, mean
 
 DENSITY_TOLERANCE = 0.05
-"""Area between two densities of states, over the area below one, that a figure does not show."""
+"""Area between two densities of states, over the area below one, that no figure shows."""
 
 MIN_FRICTIONAL_KAPPA = 0.1
-"""k_T/k_N from which states compressed with friction are judged."""
+"""Smallest k_T/k_N of the states compressed with friction that the claim is tested on."""
 
 ORDERS = {"position": 2.0, "velocity": 1.0}
 """Orders of velocity Verlet that A finds (App. B)."""
@@ -30,12 +30,12 @@ ORDERS = {"position": 2.0, "velocity": 1.0}
 
 @claim("A12", unit="1")
 def hessian_density(ensemble) -> Outcome:
-    """The density of states D of the Jacobian is that of the effective Hessian, D_H (Fig. 12).
+    """The density of states D of the Jacobian equals that of the effective Hessian, D_H (Fig. 12).
 
-    Sum over bins of |counts of D - counts of D_H|, over all counts, averaged over samples; without
-    counts max|H - J| / max|J|.
+    This is the sum over bins of |counts of D - counts of D_H| over the sum of the counts of D, with
+    counts averaged over the samples. If there are no counts of D_H, it is max|H - J| / max|J|.
 
-    Criterion: below 5 %.
+    Criterion: The number is below 5 %.
     """
     if "bin_count_hessian" in ensemble:
         return _densities(ensemble)
@@ -46,7 +46,7 @@ def hessian_density(ensemble) -> Outcome:
         Part(label(*p), mean(samples.values("hessian_difference", *p)), high=DENSITY_TOLERANCE)
         for p in samples.points("hessian_difference")
     ]
-    return Outcome(parts, "Compared are the matrices, with tangent stiffnesses in H.")
+    return Outcome(parts, "The matrices are compared, with tangent stiffnesses in H.")
 
 
 def _densities(ensemble) -> Outcome:
@@ -83,7 +83,7 @@ def _counts(samples: Samples, point: tuple, edges: np.ndarray) -> np.ndarray:
             raise NotTested("bin_count or eigenvalue")
         return counted
     frequency = averages.frequencies(eigenvalue).frequency
-    rows = [occupation(row[None], of)[0] for row, of in zip(frequency, edges, strict=True)]
+    rows = [occupation(row[None], bins)[0] for row, bins in zip(frequency, edges, strict=True)]
     return np.where(np.isfinite(edges[:, 1:]), rows, np.nan)
 
 
@@ -91,9 +91,9 @@ def _counts(samples: Samples, point: tuple, edges: np.ndarray) -> np.ndarray:
 def verlet_orders(ensemble) -> Outcome:
     """Velocity Verlet with forces that depend on velocity is of order 2 in q and 1 in q̇ (App. B).
 
-    Measured orders, averaged over samples, at every point.
+    These are the measured orders at every point, averaged over samples.
 
-    Criterion: 1.8 ... 2.2 in q, 0.8 ... 1.2 in q̇.
+    Criterion: The order lies within 1.8 ... 2.2 in q and within 0.8 ... 1.2 in q̇.
     """
     names = {kind: f"verlet_order_{kind}" for kind in ORDERS}
     samples = best_sampled(ensemble, *names.values())
@@ -114,15 +114,16 @@ def verlet_orders(ensemble) -> Outcome:
 def complex_pairs_with_friction(ensemble) -> Outcome:
     """States compressed with friction have complex pairs of eigenvalues of M⁻¹J (footnote 1).
 
-    Share of the jammed states compressed with friction that have at least one pair, the points of
-    a seed with k_T/k_N ≥ 0.1 together: A does not say at which k_T, and weak friction has none.
+    This is the share of the jammed states compressed with friction that have at least one pair, for
+    all points of a seed with k_T/k_N ≥ 0.1 together. A does not say at which k_T pairs exist, and
+    there are none at weak friction.
 
-    Criterion: above one half.
+    Criterion: The share is above one half.
     """
     samples = best_sampled(ensemble, "complex_pairs_frictional", "jammed_frictional")
     points = samples.points("complex_pairs_frictional", MIN_FRICTIONAL_KAPPA)
     if not points:
-        raise NotTested("states compressed with a k_T/k_N ≥ 0.1")
+        raise NotTested("states compressed with k_T/k_N ≥ 0.1")
     pairs, jammed = (
         np.array([samples.values(name, *point) for point in points])
         for name in ("complex_pairs_frictional", "jammed_frictional")
@@ -132,7 +133,5 @@ def complex_pairs_with_friction(ensemble) -> Outcome:
     with np.errstate(invalid="ignore"):
         share = np.nansum(having, axis=0) / known.sum(axis=0)
     most = np.nanmax(np.where(known, pairs, 0))
-    note = (
-        f"{np.nansum(having):.0f} of {known.sum()} states have pairs, at most {most:.0f} of them."
-    )
+    note = f"{np.nansum(having):.0f} of {known.sum()} states have pairs, at most {most:.0f} each."
     return Outcome([Part("all points", mean(share), 0.5)], note)

@@ -1,11 +1,11 @@
-"""The claim of paper A on the non-affine rigidity and the sign of it: A6.
+"""The claim of paper A on the non-affine rigidity and its sign: A6.
 
     symbol        name                   paper A
     G_NA          g_nonaffine            Eq. 41, unloaded step
     g_NA          g_nonaffine_loaded     the same with the tangential springs loaded
     kappa         kt = k_T/k_N
 
-Every comparison is paired: at all k_T the packings of one seed are the same.
+Every comparison is paired, because the packings of one seed are the same at all k_T.
 """
 
 from __future__ import annotations
@@ -17,20 +17,20 @@ from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled, label
 from grainmodes.statistics.estimates import Estimate, crossing, mean, relative_difference
 
 CROSSING_RANGE = (1.6, 2.5)
-"""Range of k_T/k_N that is 2 on A's grid, whose neighbours of 2 are 1 and 5."""
+"""Range of k_T/k_N that is equal to 2 on A's grid, on which the neighbours of 2 are 1 and 5."""
 
 
 @claim("A6", unit="1")
 def nonaffine_sign_change(ensemble) -> Outcome:
-    """G_NA is negative for k_T/k_N < 2 and positive above; |G_NA| grows with φ (Fig. 6).
+    """G_NA is negative for k_T/k_N < 2 and positive above, and |G_NA| grows with φ (Fig. 6).
 
-    k_T/k_N at which the mean of g_nonaffine (unloaded step) rises through 0, at every φ, linear
-    in log k_T between points of the grid, its error the jackknife over seeds; and the
-    relative difference of |G_NA| at the highest and the lowest φ, at the smallest and the largest
-    k_T, paired by seed.
+    The crossing is the k_T/k_N at which the mean of g_nonaffine (unloaded step) rises through 0, at
+    every φ, interpolated linearly in log k_T, with its error from the jackknife over seeds. The
+    growth is the relative difference of |G_NA| at the highest and the lowest φ, at the smallest and
+    at the largest k_T, paired by seed.
 
-    Criterion: the crossing lies within 1.6 ... 2.5 at every φ, and |G_NA| is larger at the
-    highest φ.
+    Criterion: The crossing lies within 1.6 ... 2.5 at every φ, and |G_NA| is larger at the highest
+    φ than at the lowest.
     """
     samples = best_sampled(ensemble, "g_nonaffine", "g_nonaffine_loaded")
     phis = samples.phis("g_nonaffine")
@@ -74,13 +74,13 @@ def _crossings(zeros: dict[float, Estimate]) -> str:
 
 
 def _loading(samples: Samples) -> str:
-    """What becomes of the sign once the step loads the tangential springs."""
+    """A sentence on the sign of G_NA if the step loads the tangential springs."""
     points = samples.points("g_nonaffine_loaded", ABOVE_ZERO)
     loaded = np.array([samples.values("g_nonaffine_loaded", *point) for point in points])
     (phi, kappa), last = points[-1], samples.values("g_nonaffine", *points[-1])
     return (
-        "The sign belongs to the step, which does not load the tangential springs: with springs "
-        "loaded g_NA = -aᵀJ⁺a/L² ≤ 0, positive in "
-        f"{int((loaded > 0).sum())} of {int(np.isfinite(loaded).sum())} samples, and G_NA at "
-        f"{label(phi, kappa)} is {mean(loaded[-1])} loaded, {mean(last)} unloaded."
+        "The sign is that of a step that does not load the tangential springs. If they are loaded, "
+        "g_NA = -aᵀJ⁺a/L² ≤ 0; it is positive in "
+        f"{int((loaded > 0).sum())} of {int(np.isfinite(loaded).sum())} samples. At "
+        f"{label(phi, kappa)} G_NA is {mean(loaded[-1])} loaded and {mean(last)} unloaded."
     )

@@ -19,20 +19,20 @@ from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled, label
 from grainmodes.statistics.estimates import Estimate, mean, relative_difference
 
 LIMIT_TOLERANCE = 0.001
-"""Relative difference to the frictionless G that counts as its limit."""
+"""Largest relative difference to the frictionless G at which its limit counts as reached."""
 
 MIN_AREA_FRACTIONS = 3
-"""Area fractions without which an exponent has no meaning."""
+"""Smallest number of area fractions for an exponent."""
 
 
 @claim("A2", unit="1")
 def not_proportional_to_distance(ensemble) -> Outcome:
     """G is not proportional to φ - φ_c at large k_T/k_N (Sec. IV A).
 
-    Exponent β of G ∝ (φ - φ_c)^β, the slope of log G for each seed with its own φ_c; measured
-    is β - 1.
+    The exponent β of G ∝ (φ - φ_c)^β is the slope of log G of each seed, with φ_c of this seed. The
+    measured number is |β - 1|.
 
-    Criterion: |β - 1| > 0.1 at every k_T/k_N ≥ 1.
+    Criterion: |β - 1| is above 0.1 at every k_T/k_N ≥ 1.
     """
     samples = best_sampled(ensemble, "g", "phi_jamming")
     enough = [k for k in samples.kappas("g") if len(samples.phis("g", k)) >= MIN_AREA_FRACTIONS]
@@ -45,11 +45,11 @@ def not_proportional_to_distance(ensemble) -> Outcome:
         if kappa >= LARGE_KAPPA
     ]
     listed = ", ".join(f"{beta} at κ = {kappa:g}" for kappa, beta in exponents.items())
-    return Outcome(parts, f"β is {listed}.")
+    return Outcome(parts, f"The exponent β is {listed}.")
 
 
 def _exponent(samples: Samples, kappa: float) -> Estimate:
-    """Mean over seeds of d log G / d log(φ - φ_c), from at least three φ of a seed."""
+    """Mean over seeds of d log G / d log(φ - φ_c), for seeds with at least three φ."""
     phis = samples.phis("g", kappa)
     distance = np.array([phi - samples.values("phi_jamming", phi, kappa) for phi in phis])
     moduli = np.array([samples.values("g", phi, kappa) for phi in phis])
@@ -67,9 +67,10 @@ def _slope(x: np.ndarray, y: np.ndarray) -> float:
 def flat_at_small_stiffness(ensemble) -> Outcome:
     """G hardly depends on k_T/k_N for k_T/k_N ≤ 1e-4 (Fig. 5).
 
-    Relative difference of G to that at the smallest k_T > 0, paired by seed, at every φ.
+    This is the relative difference of G to that at the smallest k_T > 0, paired by seed, at every
+    φ.
 
-    Criterion: |difference| < 1 %.
+    Criterion: The relative difference is within ±1 % at every φ.
     """
     samples = best_sampled(ensemble, "g")
     parts, errors = [], {}
@@ -82,16 +83,17 @@ def flat_at_small_stiffness(ensemble) -> Outcome:
         if others:
             errors[phi] = mean(reference).error / np.nanmean(reference)
     listed = ", ".join(f"{error:.2g} at {label(phi)}" for phi, error in errors.items())
-    return Outcome(parts, f"For comparison, the relative standard error of G itself: {listed}.")
+    return Outcome(parts, f"For comparison, the relative standard error of G itself is {listed}.")
 
 
 @claim("A4", unit="1")
 def frictionless_limit(ensemble) -> Outcome:
-    """G goes to its frictionless value as k_T → 0, without a jump (Sec. IV A).
+    """G tends to its frictionless value as k_T → 0, without a jump (Sec. IV A).
 
-    Relative difference of G at the smallest k_T > 0 and at k_T = 0, paired by seed, at every φ.
+    This is the relative difference of G at the smallest k_T > 0 and at k_T = 0, paired by seed, at
+    every φ.
 
-    Criterion: |difference| < 0.1 % at a k_T/k_N ≤ 1e-6.
+    Criterion: The relative difference is within ±0.1 % at the smallest k_T/k_N ≤ 1e-6.
     """
     samples = best_sampled(ensemble, "g")
     with_limit = [
@@ -123,12 +125,12 @@ def _to_frictionless(samples: Samples, phi: float, kappa: float) -> Estimate:
 
 @claim("A5", unit="1")
 def no_factorisation(ensemble) -> Outcome:
-    """G(φ, k_T/k_N) is no product G_0(φ) 𝒢(k_T/k_N) at large k_T/k_N (Sec. IV A, footnote 2).
+    """G(φ, k_T/k_N) is not a product G_0(φ) 𝒢(k_T/k_N) at large k_T/k_N (Sec. IV A, footnote 2).
 
-    log of G(κ)/G(0) at the lowest φ minus that at the highest φ, paired by seed; a product gives 0.
-    A seed with G ≤ 0, as small systems have, has no logarithm and is left out.
+    This is the difference of log[G(κ)/G(0)] at the lowest and at the highest φ, paired by seed; for
+    a product it is 0. A seed with G ≤ 0, which occurs in small systems, is left out.
 
-    Criterion: |difference| > 0.05 at every k_T/k_N ≥ 1.
+    Criterion: |difference| is above 0.05 at every k_T/k_N ≥ 1.
     """
     samples = best_sampled(ensemble, "g")
     phis = samples.phis("g", 0.0)

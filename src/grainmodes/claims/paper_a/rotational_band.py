@@ -6,7 +6,7 @@
     omega_R   (k_T/k_N)^(1/2) / t_0                         Sec. IV B
     kappa     kt = k_T/k_N
 
-Positions are measured in each sample, and their means and errors are those over the samples.
+Positions are measured in each sample; means and errors are those over the samples.
 """
 
 from __future__ import annotations
@@ -32,17 +32,18 @@ SMOOTHING_WIDTH = 0.1
 
 @claim("A9", unit="1")
 def peak_and_collapse(ensemble) -> Outcome:
-    """D peaks at ω ≃ ω_R; ω_R D collapses in 0.1 < ω/ω_R < 1 for k_T/k_N ≤ 0.01 (Fig. 10).
+    """D peaks at ω ≃ ω_R, and ω_R D collapses in 0.1 < ω/ω_R < 1 for k_T/k_N ≤ 0.01 (Fig. 10).
 
-    Peak: maximum over 0.1 < ω/ω_R < 2 of D of a sample, smoothed by 0.1. Collapse: area between
-    ω_R D and that of the smallest k_T, over the area below the latter, in nine bins.
+    The peak is the maximum over 0.1 < ω/ω_R < 2 of D of a sample, smoothed by 0.1. The collapse is
+    measured by the area between ω_R D and that of the smallest k_T, over the area below the latter,
+    in nine bins.
 
-    Criterion: the peak lies at ω/ω_R = 0.5 ... 2, and the area between two curves is below 0.1.
+    Criterion: The peak lies at ω/ω_R = 0.5 ... 2, and the area between two curves is below 0.1.
     """
     _, phi, spectra = friction_spectra(ensemble)
     scaled = {
-        k: of.frequency / np.sqrt(k)
-        for k, of in within(spectra, ABOVE_ZERO, MAX_SCALING_KAPPA).items()
+        k: found.frequency / np.sqrt(k)
+        for k, found in within(spectra, ABOVE_ZERO, MAX_SCALING_KAPPA).items()
     }
     peaks = {kappa: mean(_peak(x)) for kappa, x in scaled.items()}
     counts = {kappa: _counts(x) for kappa, x in scaled.items()}
@@ -89,14 +90,14 @@ def _peaks_and_chi_squared(peaks: dict[float, Estimate], counts: dict[float, np.
     chi = (f"{_chi_squared(counts[k], counts[first]):.2g} at κ = {k:g}" for k in others)
     listed = ", ".join(f"{peak} at κ = {kappa:g}" for kappa, peak in peaks.items())
     return (
-        f"The peak lies at ω/ω_R = {listed}. χ² per bin of two curves, their errors taken as "
-        f"independent: {', '.join(chi)}."
+        f"The peak lies at ω/ω_R = {listed}. With independent errors, χ² per bin of two curves is "
+        f"{', '.join(chi)}."
     )
 
 
 def _chi_squared(counts: np.ndarray, reference: np.ndarray) -> float:
     pair = [averages.average(rows.T, np.isfinite(rows.T)) for rows in (counts, reference)]
-    variance = sum(of.standard_error**2 for of in pair)
+    variance = sum(average.standard_error**2 for average in pair)
     filled = variance > 0
     return np.mean((pair[0].mean - pair[1].mean)[filled] ** 2 / variance[filled])
 
@@ -105,22 +106,22 @@ def _chi_squared(counts: np.ndarray, reference: np.ndarray) -> float:
 def area_of_rotational_band(ensemble) -> Outcome:
     """The integral of D over Region I does not depend on k_T/k_N (footnote 3).
 
-    Number of rotational modes (ψ^R > 1/2) relative to that at the smallest k_T, paired by seed,
-    for k_T/k_N ≤ 0.01, where A scales D.
+    This is the relative difference of the number of rotational modes (ψ^R > 1/2) to that at the
+    smallest k_T, paired by seed, for k_T/k_N ≤ 0.01, where A scales D.
 
-    Criterion: |relative difference| < 5 %.
+    Criterion: The relative difference is within ±5 %.
     """
     samples, phi, spectra = friction_spectra(ensemble)
-    areas = {kappa: _rotational_count(of) for kappa, of in spectra.items()}
+    areas = {kappa: _rotational_count(found) for kappa, found in spectra.items()}
     scaled = sorted(within(areas, ABOVE_ZERO, MAX_SCALING_KAPPA))
     parts = [
         Part(label(phi, kappa), relative_difference(areas[kappa], areas[scaled[0]]), -0.05, 0.05)
         for kappa in scaled[1:]
     ]
     shares = ", ".join(f"{mean(area / (3 * samples.n))} at κ = {k:g}" for k, area in areas.items())
-    return Outcome(parts, f"∫ D dω over the rotational modes is {shares}.")
+    return Outcome(parts, f"The integral ∫ D dω over the rotational modes is {shares}.")
 
 
-def _rotational_count(of: Modes) -> np.ndarray:
-    count = np.isfinite(of.rotational).sum(axis=1)
-    return np.where(np.isfinite(of.frequency).any(axis=1), count, np.nan)
+def _rotational_count(found: Modes) -> np.ndarray:
+    count = np.isfinite(found.rotational).sum(axis=1)
+    return np.where(np.isfinite(found.frequency).any(axis=1), count, np.nan)

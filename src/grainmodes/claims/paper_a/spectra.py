@@ -1,6 +1,6 @@
-"""The spectra on which paper A shows its bands: of every k_T > 0, at one N and φ.
+"""The spectra in which paper A shows its bands: those of every k_T > 0 at one N and φ.
 
-A's is φ = 0.90, its largest; here it is the largest φ of the ensemble.
+A shows them at φ = 0.90, its largest φ. Here it is the largest φ of the ensemble.
 """
 
 from __future__ import annotations
@@ -9,17 +9,17 @@ from grainmodes.claims.bands import SEPARABLE, Modes, modes, separable
 from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled
 
 REGION_BOUNDARY = 2.0
-"""omega / omega_R between Regions I and II."""
+"""omega / omega_R at the boundary between Regions I and II."""
 
 
 def friction_spectra(ensemble) -> tuple[Samples, float, dict[float, Modes]]:
-    """The N with most spectra, its largest φ, and the modes of every k_T > 0 there."""
+    """The samples of the N with most spectra, its largest φ, and k_T/k_N > 0 → modes there."""
     samples = best_sampled(separable(ensemble), SEPARABLE)
     phi = samples.phis(SEPARABLE)[-1]
     kappas = samples.kappas(SEPARABLE, phi, ABOVE_ZERO)
     return samples, phi, {kappa: modes(samples, phi, kappa) for kappa in kappas}
 
 
-def within(of_kappa: dict, low: float, high: float) -> dict:
-    """What belongs to a k_T/k_N in [low, high]."""
-    return {kappa: of for kappa, of in of_kappa.items() if low * 0.999 <= kappa <= high * 1.001}
+def within(by_kappa: dict, low: float, high: float) -> dict:
+    """The entries of k_T/k_N → value with k_T/k_N in [low, high]."""
+    return {k: value for k, value in by_kappa.items() if low * 0.999 <= k <= high * 1.001}

@@ -1,4 +1,4 @@
-"""Claims of paper A on two ways to one modulus: A1, A16 and A17.
+"""Claims of paper A that compare two ways to compute a modulus: A1, A16 and A17.
 
     symbol        name                   paper A
     G             g                      Eq. 17, theory (Eqs. 39-46)
@@ -22,11 +22,11 @@ from grainmodes.statistics.estimates import Estimate, relative_difference
 
 @claim("A1", unit="1")
 def theory_is_simulation(ensemble) -> Outcome:
-    """The rigidity G of the theory is that of the simulation at all φ and k_T/k_N (Fig. 4).
+    """The rigidity G of the theory equals that of the simulation at all φ and k_T/k_N (Fig. 4).
 
-    Relative difference of g_simulated and g, paired by seed, at every point.
+    This is the relative difference of g_simulated and g, paired by seed, at every point.
 
-    Criterion: |G_simulated - G| < 1 % of G.
+    Criterion: The relative difference is within ±1 % at every point.
     """
     samples = best_sampled(ensemble, "g", "g_simulated")
     parts = [
@@ -42,8 +42,8 @@ def theory_is_simulation(ensemble) -> Outcome:
 
 
 def _relative(samples: Samples, name: str, reference: str, phi: float, kappa: float) -> Estimate:
-    of = (samples.values(variable, phi, kappa) for variable in (name, reference))
-    return relative_difference(*of)
+    values = (samples.values(variable, phi, kappa) for variable in (name, reference))
+    return relative_difference(*values)
 
 
 def _contact_changes(samples: Samples) -> str:
@@ -59,18 +59,18 @@ def _contact_changes(samples: Samples) -> str:
 def independent_of_strain(ensemble) -> Outcome:
     """The simulated G does not depend on the step strain in 1e-6 ... 1e-4 (Sec. II).
 
-    Relative difference of G from forward steps to that of the smallest step, paired by seed, at
-    every point.
+    This is the relative difference of G from forward steps to that of the smallest step, paired by
+    seed, at every point.
 
-    Criterion: |difference| < 1 %.
+    Criterion: The relative difference is within ±1 % at every point.
     """
     samples = best_sampled(ensemble, "g_forward_by_strain", "diagnostic_strain")
     parts = []
     for point in samples.points("g_forward_by_strain"):
         moduli = samples.values("g_forward_by_strain", *point).T
         steps = np.nanmean(samples.values("diagnostic_strain", *point), axis=0)
-        for step, of in zip(steps[1:], moduli[1:], strict=True):
-            difference = relative_difference(of, moduli[0])
+        for step, modulus in zip(steps[1:], moduli[1:], strict=True):
+            difference = relative_difference(modulus, moduli[0])
             parts.append(
                 Part(
                     f"Δγ = {step:g}, {label(*point)}",
@@ -86,10 +86,10 @@ def independent_of_strain(ensemble) -> Outcome:
 def translational_modes_suffice(ensemble) -> Outcome:
     """The translational modes alone give G at small k_T/k_N (abstract).
 
-    Relative difference of the sum over modes with ψ^T > 1/2 and of g, paired by seed, at every
-    point with k_T/k_N ≤ 1e-4.
+    This is the relative difference of the sum over the modes with ψ^T > 1/2 and g, paired by seed,
+    at every point with k_T/k_N ≤ 1e-4.
 
-    Criterion: |difference| < 1 %.
+    Criterion: The relative difference is within ±1 % at every point.
     """
     samples = best_sampled(ensemble, "g_translational", "g")
     parts = [
@@ -104,4 +104,4 @@ def translational_modes_suffice(ensemble) -> Outcome:
     above = samples.points("g_translational", 2.0 * SMALL_KAPPA)
     differences = {p: _relative(samples, "g_translational", "g", *p) for p in above}
     listed = ", ".join(f"{value} at {label(*point)}" for point, value in differences.items())
-    return Outcome(parts, f"Above, the difference is {listed}." if listed else "")
+    return Outcome(parts, f"At larger k_T/k_N the difference is {listed}." if listed else "")

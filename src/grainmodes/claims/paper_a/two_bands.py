@@ -8,7 +8,7 @@
     Region I  rotational band, omega < 2 omega_R (the upper end of A's window of bins)
     Region II translational band, omega > 2 omega_R
 
-Positions are measured in each sample, and their means and errors are those over the samples.
+Positions are measured in each sample; means and errors are those over the samples.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from grainmodes.claims.samples import ABOVE_ZERO, best_sampled, label
 from grainmodes.statistics.estimates import Estimate, mean
 
 MIN_PURITY = 0.9
-"""psi above which a region counts as purely rotational or translational."""
+"""Mean psi above which a region counts as purely rotational or translational."""
 
 SEPARATE_RANGE, OVERLAP_RANGE, MERGED_RANGE = (1e-10, 1e-8), (1e-6, 1e-2), (1.0, np.inf)
 """k_T/k_N of A's three kinds of spectrum (Sec. IV B)."""
@@ -39,43 +39,46 @@ SEPARATE_RANGE, OVERLAP_RANGE, MERGED_RANGE = (1e-10, 1e-8), (1e-6, 1e-2), (1.0,
 
 @claim("A7", unit="1")
 def pure_regions(ensemble) -> Outcome:
-    """Modes of Region I are rotational for k_T/k_N ≤ 1e-4, of Region II translational below 1.
+    """Region I is rotational for k_T/k_N ≤ 1e-4, and Region II is translational for k_T/k_N < 1.
 
-    Mean of ψ^R over the modes with ω < 2 ω_R, and of ψ^T over those with ω > 2 ω_R.
+    These are the mean of ψ^R over the modes with ω < 2 ω_R, and of ψ^T over those with ω > 2 ω_R.
 
-    Criterion: each mean is above 0.9.
+    Criterion: The mean ψ^R of Region I and the mean ψ^T of Region II are above 0.9.
     """
     _, phi, spectra = friction_spectra(ensemble)
     parts = [
-        Part(f"ψ^R in I at {label(phi, kappa)}", _purity(of, kappa, rotational=True), MIN_PURITY)
-        for kappa, of in within(spectra, ABOVE_ZERO, 1e-4).items()
+        Part(f"ψ^R in I at {label(phi, kappa)}", _purity(found, kappa, rotational=True), MIN_PURITY)
+        for kappa, found in within(spectra, ABOVE_ZERO, 1e-4).items()
     ]
     parts += [
-        Part(f"ψ^T in II at {label(phi, kappa)}", _purity(of, kappa, rotational=False), MIN_PURITY)
-        for kappa, of in within(spectra, ABOVE_ZERO, 0.5).items()
+        Part(
+            f"ψ^T in II at {label(phi, kappa)}", _purity(found, kappa, rotational=False), MIN_PURITY
+        )
+        for kappa, found in within(spectra, ABOVE_ZERO, 0.5).items()
     ]
     return Outcome(parts)
 
 
-def _purity(of: Modes, kappa: float, rotational: bool) -> Estimate:
+def _purity(found: Modes, kappa: float, rotational: bool) -> Estimate:
     region = REGION_BOUNDARY * np.sqrt(kappa)
     if rotational:
-        return mean_in(of.psi_rotational, of.frequency < region)
-    return mean_in(1.0 - of.psi_rotational, of.frequency > region)
+        return mean_in(found.psi_rotational, found.frequency < region)
+    return mean_in(1.0 - found.psi_rotational, found.frequency > region)
 
 
 @claim("A8", unit="1")
 def gap_overlap_merger(ensemble) -> Outcome:
-    """The bands are separate for k_T/k_N in 1e-10 ... 1e-8, overlap in 1e-6 ... 1e-2, merge from 1.
+    """The bands are separate at k_T/k_N = 1e-10 ... 1e-8, overlap at 1e-6 ... 1e-2, merge from 1.
 
-    log10 of the lowest translational ω over the highest rotational ω of a sample: the gap in
-    decades, negative where the bands overlap; from k_T/k_N = 1 on the share of rotational modes
-    above the lowest translational one.
+    The gap is log10 of the lowest translational ω over the highest rotational ω of a sample, in
+    decades; it is negative where the bands overlap. From k_T/k_N = 1 on the measured number is the
+    share of rotational modes above the lowest translational one.
 
-    Criterion: gap > 0 up to 1e-8, gap < 0 in 1e-6 ... 1e-2, share > 0.9 from 1 on.
+    Criterion: The gap is above 0 in 1e-10 ... 1e-8 and below 0 in 1e-6 ... 1e-2, and the share is
+    above 0.9 from 1 on.
     """
     samples, phi, spectra = friction_spectra(ensemble)
-    gaps = {kappa: _gap(of) for kappa, of in spectra.items()}
+    gaps = {kappa: _gap(found) for kappa, found in spectra.items()}
     parts = {
         "k_T/k_N in 1e-10 ... 1e-8": [
             Part(f"gap at {label(phi, k)}", gaps[k], 0.0) for k in within(gaps, *SEPARATE_RANGE)
@@ -84,38 +87,38 @@ def gap_overlap_merger(ensemble) -> Outcome:
             Part(f"gap at {label(phi, k)}", gaps[k], high=0.0) for k in within(gaps, *OVERLAP_RANGE)
         ],
         "k_T/k_N ≥ 1": [
-            Part(f"share at {label(phi, k)}", _share_above(of), MIN_PURITY)
-            for k, of in within(spectra, *MERGED_RANGE).items()
+            Part(f"share at {label(phi, k)}", _share_above(found), MIN_PURITY)
+            for k, found in within(spectra, *MERGED_RANGE).items()
         ],
     }
     return Outcome(all_parts(parts), _gap_and_size(samples.n, within(gaps, *OVERLAP_RANGE)))
 
 
-def _gap(of: Modes) -> Estimate:
-    gap = per_sample(lambda r, t: np.log10(t[0] / r[-1]), of.rotational, of.translational)
+def _gap(found: Modes) -> Estimate:
+    gap = per_sample(lambda r, t: np.log10(t[0] / r[-1]), found.rotational, found.translational)
     return mean(gap)
 
 
-def _share_above(of: Modes) -> Estimate:
-    return mean(per_sample(lambda r, t: np.mean(r > t[0]), of.rotational, of.translational))
+def _share_above(found: Modes) -> Estimate:
+    return mean(per_sample(lambda r, t: np.mean(r > t[0]), found.rotational, found.translational))
 
 
 def _gap_and_size(n: int, gaps: dict[float, Estimate]) -> str:
-    """A gap at this N that is one of its box: the N at which the lowest sound wave closes it."""
+    """A sentence on gaps that only a finite box has: the N at which a sound wave closes them."""
     open_gaps = {kappa: gap.value for kappa, gap in gaps.items() if gap.value > 0}
     listed = ", ".join(f"{n * 100**gap:.0e} at κ = {k:g}" for k, gap in open_gaps.items())
-    sentence = "The lowest translational mode is a sound wave of the box, ω ∝ N^(-1/2); it meets"
-    return f"{sentence} the rotational band at N ≈ {listed}." if listed else ""
+    sentence = "The lowest translational mode is a sound wave of the box with ω ∝ N^(-1/2); it"
+    return f"{sentence} reaches the rotational band at N ≈ {listed}." if listed else ""
 
 
 @claim("A11", unit="1")
 def frictionless_band(ensemble) -> Outcome:
     """At k_T/k_N = 1e-8 the translational band is the spectrum of frictionless grains (Fig. 11).
 
-    Relative shift of the translational ω against those at k_T = 0, rank by rank in each sample
-    (at 50 shares of the band, where the numbers of modes differ); its mean size.
+    This is the mean over the modes of |ω/ω' - 1| of the translational ω and the ω' at k_T = 0 with
+    the same rank in the sample, or at 50 quantiles of the bands if the numbers of modes differ.
 
-    Criterion: the mean shift is below 1 %.
+    Criterion: The mean shift is below 1 %.
     """
     samples = best_sampled(separable(ensemble), SEPARABLE)
     phis = [
@@ -132,12 +135,12 @@ def frictionless_band(ensemble) -> Outcome:
     with_friction, without = modes(samples, phi, kappa).translational, frictionless(samples, phi)
     counts = [np.isfinite(band).sum(axis=1).mean() for band in (with_friction, without)]
     shift = Part(label(phi, kappa), mean(per_sample(_shift, with_friction, without)), high=0.01)
-    note = f"{counts[0]:.1f} translational modes against {counts[1]:.1f} without friction."
+    note = f"There are {counts[0]:.1f} translational modes, and {counts[1]:.1f} without friction."
     return Outcome([shift], note)
 
 
 def _shift(band: np.ndarray, reference: np.ndarray) -> float:
     if len(band) != len(reference):
-        shares = (np.arange(50) + 0.5) / 50
-        band, reference = np.quantile(band, shares), np.quantile(reference, shares)
+        quantiles = (np.arange(50) + 0.5) / 50
+        band, reference = np.quantile(band, quantiles), np.quantile(reference, quantiles)
     return np.mean(np.abs(band / reference - 1.0))
