@@ -14,6 +14,7 @@ import numpy as np
 
 from grainmodes.claims.claim import NotTested
 from grainmodes.claims.samples import Samples
+from grainmodes.dataset.padding import stack_padded
 from grainmodes.statistics import averages
 from grainmodes.statistics.estimates import Estimate, mean
 
@@ -116,11 +117,7 @@ def frictionless(samples: Samples, phi: float) -> np.ndarray:
 def _from_bins(edges: np.ndarray, count: np.ndarray, psi: np.ndarray) -> Modes:
     count = np.nan_to_num(count).astype(int)
     rows = [_spread(*row) for row in zip(edges, count, psi, strict=True)]
-    longest = max(len(frequency) for frequency, _ in rows)
-    padded = np.full((2, len(rows), longest), np.nan)
-    for place, row in enumerate(rows):
-        padded[:, place, : row.shape[1]] = row
-    return Modes(*padded)
+    return Modes(*(stack_padded(column, np.nan) for column in zip(*rows, strict=True)))
 
 
 def _spread(edges: np.ndarray, count: np.ndarray, psi: np.ndarray) -> np.ndarray:

@@ -17,6 +17,7 @@ import numpy as np
 
 from grainmodes.dataset import VARIABLES
 from grainmodes.dataset.files import Block, BlockError, read_block
+from grainmodes.dataset.padding import stack_padded
 from grainmodes.dataset.variable import is_gathered
 from grainmodes.parameters.stages import gathered
 
@@ -93,13 +94,12 @@ def _aligned(members: dict[str, Block], seeds: np.ndarray) -> dict[str, np.ndarr
 
 
 def _together(parts: list[tuple[np.ndarray, np.ndarray]], size: int) -> np.ndarray:
-    """Rows of several blocks, each (place, array), as one array."""
-    lengths = np.max([array.shape[1:] for _, array in parts], axis=0).astype(int)
-    dtype = parts[0][1].dtype
-    whole = np.full((size, *lengths), np.nan if dtype.kind == "f" else 0, dtype)
-    for place, array in parts:
-        whole[(place, *map(slice, array.shape[1:]))] = array
-    return whole
+    """Rows of several blocks, each (places, array), as one array of `size` rows."""
+    rows: list[np.ndarray | None] = [None] * size
+    for places, array in parts:
+        for place, row in zip(places, array, strict=True):
+            rows[place] = row
+    return stack_padded(rows, np.nan if parts[0][1].dtype.kind == "f" else 0)
 
 
 def _attributes(blocks: dict[str, Block], stages: dict[str, dict[str, Block]]) -> dict[str, object]:

@@ -12,6 +12,7 @@ from dataclasses import asdict
 import numpy as np
 
 from grainmodes.dataset.files import Block
+from grainmodes.dataset.padding import stack_padded
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import is_frictionless
 from grainmodes.packing.state import Packing
@@ -71,17 +72,14 @@ def _brackets(brackets: Sequence[Bracket]) -> dict[str, object]:
     """Every bracket with its event, its ends and the curve around it."""
     names = ("stress_before", "stress_after", "kind", "opened", "closed")
     columns = zip(names, zip(*map(_bracket_values, brackets), strict=True), strict=True)
-    longest = max(len(bracket.curve) for bracket in brackets)
-    strain, stress = (np.full((len(brackets), longest), np.nan) for _ in range(2))
-    for place, bracket in enumerate(brackets):
-        count = len(bracket.curve)
-        strain[place, :count] = [point.strain for point in bracket.curve]
-        stress[place, :count] = [symmetric_shear(point.stress) for point in bracket.curve]
+    curves = [bracket.curve for bracket in brackets]
+    strain = [[point.strain for point in curve] for curve in curves]
+    stress = [[symmetric_shear(point.stress) for point in curve] for curve in curves]
     return {
         **{f"bracket_{name}": values for name, values in columns},
         **bracket_ends(brackets),
-        "bracket_curve_strain": strain,
-        "bracket_curve_stress": stress,
+        "bracket_curve_strain": stack_padded(strain, np.nan, float),
+        "bracket_curve_stress": stack_padded(stress, np.nan, float),
     }
 
 

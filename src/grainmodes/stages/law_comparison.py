@@ -12,6 +12,7 @@ from dataclasses import asdict, replace
 import numpy as np
 
 from grainmodes.dataset.files import Block
+from grainmodes.dataset.padding import stack_padded
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ELASTIC_LAWS, TANGENTIAL_LAWS, ContactLaw
@@ -52,11 +53,17 @@ def comparison_row(variants: Mapping[str, Variant]) -> dict[str, object]:
     longest = max((one.seen for one in variants.values()), key=len)
     row: dict[str, object] = {"comparison_count": len(longest)}
     row["comparison_strain"] = [state.strain for state in longest]
-    for name, one in variants.items():
-        for quantity in Seen._fields[1:]:
-            column = np.full(len(longest), np.nan)
-            column[: len(one.seen)] = [getattr(state, quantity) for state in one.seen]
-            row[f"comparison_{quantity}_{name}"] = column
+    columns = {
+        quantity: stack_padded(
+            [[getattr(state, quantity) for state in one.seen] for one in variants.values()],
+            np.nan,
+            float,
+        )
+        for quantity in Seen._fields[1:]
+    }
+    for place, name in enumerate(variants):
+        for quantity, column in columns.items():
+            row[f"comparison_{quantity}_{name}"] = column[place]
     failures = [f"{name}: {one.ending}" for name, one in variants.items() if one.ending]
     row |= {"jammed": True, "converged": not failures}
     return row | ({"failure": "; ".join(failures)} if failures else {})

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from grainmodes.dataset.padding import stack_padded
 from grainmodes.protocols.release.outcome import ReleaseOutcome, record_series, release_outcome
 from grainmodes.protocols.release.record import MotionRecord, grain_stress
 from grainmodes.protocols.release.release_run import ReleaseRun
@@ -68,13 +69,10 @@ def _outcomes(outcomes: Sequence[ReleaseOutcome]) -> dict[str, object]:
 
 def _records(runs: Sequence[ReleaseRun]) -> dict[str, object]:
     """Every quantity of the records, (damping, record); shorter runs are filled up."""
-    longest = max(len(run.records) for run in runs)
     series = [record_series(run.records) for run in runs]
     row = {}
     for name in MotionRecord._fields:
-        values = np.full((len(runs), longest), np.nan)
-        for place, quantities in enumerate(series):
-            values[place, : len(quantities[name])] = quantities[name]
+        values = stack_padded([quantities[name] for quantities in series], np.nan, float)
         row[f"release_{name}"] = np.nan_to_num(values) if name in COUNTS else values
     return row
 
@@ -94,15 +92,12 @@ def _spectra(run: ReleaseRun) -> dict[str, object]:
         return {}
     spectra = [values for _, values in run.spectra]
     imaginary = [np.sort(values.imag[values.imag > REAL])[::-1] for values in spectra]
-    padded = np.full((len(imaginary), max(map(len, imaginary))), np.nan)
-    for place, parts in enumerate(imaginary):
-        padded[place, : len(parts)] = parts
     real = [values.real[np.abs(values.imag) <= REAL] for values in spectra]
     return {
         "release_spectrum_time": [step * run.choices.time_step for step, _ in run.spectra],
         "release_spectrum_pairs": [len(parts) for parts in imaginary],
         "release_spectrum_negative": [np.count_nonzero(parts < -REAL) for parts in real],
-        "release_spectrum_imaginary": padded,
+        "release_spectrum_imaginary": stack_padded(imaginary, np.nan),
     }
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from grainmodes.dataset import VARIABLES
 from grainmodes.dataset.files import Block, BlockError
+from grainmodes.dataset.padding import stack_padded
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.runtime.provenance import code_version
 
@@ -70,16 +71,8 @@ def described(stage: str, config: dict, **point: float) -> dict[str, object]:
 def _stacked(rows: list[dict[str, object]]) -> dict[str, np.ndarray]:
     """Arrays over all rows; shorter rows, and rows without the name, are filled up."""
     names = list(dict.fromkeys(name for row in rows for name in row)) or ["converged"]
-    return {name: _column(name, [row.get(name) for row in rows]) for name in names}
-
-
-def _column(name: str, values: list[object]) -> np.ndarray:
-    dtype = VARIABLES[name].dtype
-    arrays = [None if value is None else np.asarray(value, dtype) for value in values]
-    present = [array.shape for array in arrays if array is not None]
-    shape = tuple(max(lengths) for lengths in zip(*present, strict=True))
-    column = np.full((len(values), *shape), FILL[dtype], dtype)
-    for row, array in enumerate(arrays):
-        if array is not None:
-            column[(row, *(slice(length) for length in array.shape))] = array
-    return column
+    dtypes = {name: VARIABLES[name].dtype for name in names}
+    return {
+        name: stack_padded([row.get(name) for row in rows], FILL[dtype], dtype)
+        for name, dtype in dtypes.items()
+    }

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from grainmodes.dataset.padding import stack_padded
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import is_frictionless
 from grainmodes.packing.state import Packing, on_all_grains
@@ -141,9 +142,9 @@ def _springs(packings: Sequence[Packing]) -> dict[str, object]:
     histories = [packing.history for packing in packings]
     return {
         "rotation": np.stack([packing.rotation for packing in packings]),
-        "contact_i": _padded([history.i for history in histories], -1),
-        "contact_j": _padded([history.j for history in histories], -1),
-        "spring_state": _padded([history.spring_state for history in histories], np.nan),
+        "contact_i": stack_padded([history.i for history in histories], -1),
+        "contact_j": stack_padded([history.j for history in histories], -1),
+        "spring_state": stack_padded([history.spring_state for history in histories], np.nan),
     }
 
 
@@ -152,11 +153,3 @@ def _network_changes(changes: Sequence[NetworkChange]) -> dict[str, object]:
         return {"change_count": 0}
     columns = zip(NetworkChange._fields, zip(*changes, strict=True), strict=True)
     return {"change_count": len(changes)} | {f"change_{name}": values for name, values in columns}
-
-
-def _padded(rows: Sequence[np.ndarray], fill: float) -> np.ndarray:
-    """Rows of different lengths as one array, the shorter ones filled up."""
-    array = np.full((len(rows), max(map(len, rows))), fill, rows[0].dtype)
-    for place, row in enumerate(rows):
-        array[place, : len(row)] = row
-    return array

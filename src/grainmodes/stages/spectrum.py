@@ -1,14 +1,14 @@
 """Spectra of a block of packings: of J, of J with the rattlers in it, of the effective Hessian.
 
-| kind        | holds                                                              |
-| ----------- | ------------------------------------------------------------------ |
-| counts      | number of modes in bins of ω                                       |
+| kind            | holds                                                              |
+| --------------- | ------------------------------------------------------------------ |
+| counts          | number of modes in bins of ω                                       |
 | binned_averages | the same, with ψ^R and p averaged over each bin, and their errors  |
-| eigenvalues | every eigenvalue                                                   |
-| modes       | every eigenvalue with ψ^R and p, and g as a sum over the modes     |
+| eigenvalues     | every eigenvalue                                                   |
+| modes           | every eigenvalue with ψ^R and p, and g as a sum over the modes     |
 
-The bins depend on the point alone (`binning.fixed_edges`): samples can be added up. Each row
-says by which method it was computed, and with which factorisation.
+The bins depend on the point alone (`binning.fixed_edges`), so that samples can be added up. Each
+row says by which method it was computed, and with which factorisation.
 """
 
 from __future__ import annotations
@@ -18,9 +18,10 @@ from dataclasses import asdict
 import numpy as np
 
 from grainmodes.dataset.files import Block
+from grainmodes.dataset.padding import stack_padded
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.hessian import effective_hessian
-from grainmodes.packing.state import backbone, find_contacts
+from grainmodes.packing.state import Packing, backbone, find_contacts
 from grainmodes.parameters.factors import FACTORISATIONS
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.spectra import BINNED, SPECTRUM_METHODS, SpectrumChoices
@@ -45,26 +46,25 @@ def spectrum_block(
     choices: SpectrumChoices,
     processes: int = 1,
 ) -> Block:
-    """The spectrum of every packing without its rattlers; `processes` share its windows."""
+    """The spectrum of every packing without its rattlers; `processes` share its slices."""
     interaction, threshold = Interaction.from_law(law), rattlers.largest(law)
     edges = fixed_edges(law.kt, choices.bin_density)
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, interaction)
         if not jammed:
-            return _nothing(kind, edges, _columns(packing, law))
+            return _unjammed_row(kind, edges, _number_of_rows(packing, law))
         eigenproblem = Eigenproblem.from_packing(packing, interaction, threshold)
         if kind in BINNED:
-            return _bins(
-                average_in_bins(eigenproblem, edges, kind == "binned_averages", choices), kind
-            )
+            averages = kind == "binned_averages"
+            return _bins(average_in_bins(eigenproblem, edges, averages, choices), kind)
         if kind == "eigenvalues" or not eigenproblem.symmetric:
             found = full_spectrum(eigenproblem, kind == "modes", None, choices, processes)
-            return _modes(found, _columns(packing, law), kind)
+            return _modes(found, _number_of_rows(packing, law), kind)
         by_mode = ModeRigidity(packing, interaction, threshold)
         found = full_spectrum(eigenproblem, True, by_mode.forces, choices, processes)
         shares = by_mode.contributions(found)
-        return _modes(found, _columns(packing, law), kind) | {
+        return _modes(found, _number_of_rows(packing, law), kind) | {
             "g_mode_sum": by_mode.g_affine + float(shares.sum())
         }
 
@@ -81,7 +81,7 @@ def rattlers_block(
         packing, _ = jammed_packing(packings, number, interaction)
         eigenproblem = Eigenproblem.from_packing(packing, interaction, keep_rattlers=True)
         found = full_spectrum(eigenproblem, kind == "modes", None, choices, processes)
-        row = _modes(found, _columns(packing, law), kind)
+        row = _modes(found, _number_of_rows(packing, law), kind)
         kept = ("eigenvalue", "psi_rotational", "participation_ratio", "mode_count")
         renamed = {f"{name}_rattlers": row[name] for name in kept if name in row}
         return renamed | {"converged": True}
@@ -121,11 +121,13 @@ def _config(
     return {"law": asdict(law), "spectrum": kind, "spectrum_choices": asdict(choices)} | kept
 
 
-def _columns(packing, law: ContactLaw) -> int:
+def _number_of_rows(packing: Packing, law: ContactLaw) -> int:
+    """Number of rows of J with all grains: no spectrum of the packing is longer."""
     return packing.n * (3 if law.frictional else 2)
 
 
-def _how(method: str, factorisation: str) -> dict[str, object]:
+def _method_columns(method: str, factorisation: str) -> dict[str, object]:
+    """By which method the row was computed, as the codes of the dataset."""
     return {
         "spectrum_method": SPECTRUM_METHODS.index(method),
         "factorisation": 0 if factorisation == "none" else FACTORISATIONS.index(factorisation),
@@ -135,15 +137,19 @@ def _how(method: str, factorisation: str) -> dict[str, object]:
 
 def _modes(found: FullSpectrum, columns: int, kind: str) -> dict[str, object]:
     """A row of eigenvalues, with imaginary parts only where J is not symmetric."""
+
+    def padded(series: np.ndarray) -> np.ndarray:
+        return stack_padded([series], np.nan, min_shape=(columns,))[0]
+
     values = found.eigenvalue
-    row = {"eigenvalue": _padded(values.real, columns), "mode_count": len(values)}
+    row = {"eigenvalue": padded(values.real), "mode_count": len(values)}
     if np.iscomplexobj(values):
-        row["eigenvalue_imaginary"] = _padded(values.imag, columns)
+        row["eigenvalue_imaginary"] = padded(values.imag)
     if kind == "modes":
-        row["psi_rotational"] = _padded(found.psi_rotational, columns)
-        row["participation_ratio"] = _padded(found.participation_ratio, columns)
+        row["psi_rotational"] = padded(found.psi_rotational)
+        row["participation_ratio"] = padded(found.participation_ratio)
         row["residual"] = found.residual
-    return row | _how(found.method, found.factorisation)
+    return row | _method_columns(found.method, found.factorisation)
 
 
 def _bins(found: BinnedAverages, kind: str) -> dict[str, object]:
@@ -157,21 +163,15 @@ def _bins(found: BinnedAverages, kind: str) -> dict[str, object]:
         for name in ("psi_rotational", "participation_ratio"):
             row[f"bin_{name}"] = getattr(found, name)
             row[f"bin_{name}_error"] = getattr(found, f"{name}_error")
-    return row | _how(found.method, found.factorisation)
+    return row | _method_columns(found.method, found.factorisation)
 
 
-def _nothing(kind: str, edges: np.ndarray, columns: int) -> dict[str, object]:
-    """The row of a packing that is not jammed: it has no modes."""
+def _unjammed_row(kind: str, edges: np.ndarray, columns: int) -> dict[str, object]:
+    """The row of an unjammed packing, which has no modes."""
     none = np.zeros(0)
     if kind not in BINNED:
         row = _modes(FullSpectrum(none, none, none, 0.0, method="auto"), columns, kind)
         return row | ({"g_mode_sum": 0.0} if kind == "modes" else {})
-    bins, empty = len(edges) - 1, np.full(len(edges) - 1, np.nan)
-    nothing = BinnedAverages(
-        edges, np.zeros(bins, int), 0, 0, empty, empty, empty, empty, method="auto"
-    )
-    return _bins(nothing, kind)
-
-
-def _padded(values: np.ndarray, length: int) -> np.ndarray:
-    return np.concatenate([values, np.full(length - len(values), np.nan)])
+    averages = [np.full(len(edges) - 1, np.nan)] * 4
+    no_modes = BinnedAverages(edges, np.zeros(len(edges) - 1, int), 0, 0, *averages, method="auto")
+    return _bins(no_modes, kind)
