@@ -1,4 +1,4 @@
-"""An ensemble without any grain behind it on which every claim of paper A holds.
+"""A synthetic ensemble, made of formulas, on which every claim of paper A holds.
 
     G(φ, κ)   = A(φ) [1 + 10 κ] / [1 + κ] style interpolation of two power laws of φ - φ_c
     G_NA      ∝ (φ - φ_c) log(κ / 2), which rises through 0 at κ = 2

@@ -1,4 +1,4 @@
-"""What small scenes cost: CPU seconds and jobs, stage by stage."""
+"""Small scenes and what they cost: CPU seconds and jobs, stage by stage."""
 
 from dataclasses import replace
 

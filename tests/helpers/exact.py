@@ -1,4 +1,4 @@
-"""Inertia without any rounding: the twin of a count.
+"""Inertia counts in exact integers, to compare with the counts of the package.
 
 Doubles are integers times powers of two, so J − σ is a matrix of integers up to a common factor.
 Bareiss' elimination keeps it one: its pivots are the leading principal minors, and the number of

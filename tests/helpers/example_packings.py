@@ -1,4 +1,4 @@
-"""Packings to test with: those of an independent code, and crowds that are no packings at all."""
+"""Packings for the tests: reference files of an independent code, and dense random arrangements."""
 
 from __future__ import annotations
 
@@ -172,6 +172,11 @@ def contacts_and_pairs(packing: Packing) -> tuple[Contacts, list[naive.Pair]]:
 
 BACKENDS = ["superlu", *(["pardiso"] if find_spec("pypardiso") else [])]
 """The factorisations of this environment."""
+
+
+def kt_and_backend(*kts: float) -> list[tuple[float, str]]:
+    """Every k_T with SuperLU, and the last one with every factorisation."""
+    return [*((kt, BACKENDS[0]) for kt in kts), *((kts[-1], name) for name in BACKENDS[1:])]
 
 
 @cache

@@ -1,4 +1,4 @@
-"""The slow, obvious twins: plain Python and numpy, one formula per function, no grid, no lists.
+"""Slow twins of the package: plain Python and numpy, one formula per function, no grids, no lists.
 
 Only the forces are written down. Whatever is a derivative in the package is taken here as a complex
 step of those forces, Im f(q + ih)/h, exact to rounding, or as a central difference of them; so

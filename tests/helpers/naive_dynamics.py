@@ -1,6 +1,6 @@
 """Slow twins of the two ways to move: FIRE as in A, App. A, and velocity Verlet as in A, App. B.
 
-One step per function, absolute positions, every pair looked at anew in every step.
+One step per function, absolute positions, and all pairs searched in every step.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Ways that look right and fail on a hard case; each test of `hard_cases` shows where."""
+"""Obvious methods that fail on a hard case; `hard_cases` shows where each of them fails."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What every figure leaves behind: a picture, a vector picture, and its numbers."""
+"""Reads what every figure writes: a PNG, a PDF, and its numbers."""
 
 from __future__ import annotations
 

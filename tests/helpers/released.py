@@ -1,4 +1,4 @@
-"""The unstable state that is released in tests: the sheared reference file, its fastest pair."""
+"""The unstable state that the tests release: the sheared reference packing and its fastest pair."""
 
 from __future__ import annotations
 

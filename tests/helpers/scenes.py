@@ -1,4 +1,4 @@
-"""Small scenes to vary, key by key or grid by grid."""
+"""Small scenes that tests change key by key or grid by grid."""
 
 from copy import deepcopy
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Blocks and ensembles that look like those of a study, without any grain behind them.
+"""Synthetic blocks and ensembles, made of formulas, that look like those of a study.
 
 Two translations at round-off, a rotational band at omega ~ (k_T)^(1/2), a translational band at
 omega ~ 1, G growing with phi and k_T; below `JAMMING` nothing is jammed. `spectrum_bins` counts the

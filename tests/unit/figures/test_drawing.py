@@ -33,11 +33,16 @@ def test_the_same_ensemble_gives_the_same_bytes(path, tmp_path):
         assert first.read_bytes() == second.read_bytes()
 
 
+@pytest.fixture(scope="module")
+def unjammed(tmp_path_factory):
+    """An ensemble without a jammed sample."""
+    folder, kts = tmp_path_factory.mktemp("unjammed"), (0.0, 1e-8, 1e-4)
+    return synthetic.ensemble(folder, phis=(0.83,), kts=kts, seeds=1, stages=synthetic.WHOLE)
+
+
 @pytest.mark.parametrize("name", OF_ENSEMBLES)
-def test_a_study_without_a_jammed_sample_still_has_its_figures(name, tmp_path):
-    kts, stages = (0.0, 1e-8, 1e-4), synthetic.WHOLE
-    path = synthetic.ensemble(tmp_path, phis=(0.83,), kts=kts, seeds=1, stages=stages)
-    draw(name, path, tmp_path / name, {})
+def test_a_study_without_a_jammed_sample_still_has_its_figures(name, unjammed, tmp_path):
+    draw(name, unjammed, tmp_path / name, {})
     assert (tmp_path / f"{name}.pdf").exists()
 
 
