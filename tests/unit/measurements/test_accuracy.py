@@ -183,8 +183,10 @@ def test_every_diagram_has_a_module_and_says_what_it_needs():
     ],
 )
 def test_step_strains(monkeypatch, in_this_process, relaxation, forward):
-    ways = {name: way for name, way in strain_step.WAYS.items() if name.startswith(relaxation)}
-    monkeypatch.setattr(strain_step, "WAYS", ways)
+    methods = {
+        name: method for name, method in strain_step.METHODS.items() if name.startswith(relaxation)
+    }
+    monkeypatch.setattr(strain_step, "METHODS", methods)
     monkeypatch.setattr(strain_step, "STRAINS", (1e-3, 1e-6))
     rows = list(strain_step.measure(Size((16,), 1)))
     error = {(row.curve, row.setting): row.error for row in rows}
