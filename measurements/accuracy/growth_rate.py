@@ -85,7 +85,7 @@ def unstable_state(n: int, seed: int) -> UnstableState | None:
     found = walk.unstable
     if found is None or found.growth < MIN_GROWTH_RATE:
         return None
-    pairs, packing = found.state.pairs, found.state.balance.packing
+    pairs, packing = found.state.pairs, found.state.equilibrium.packing
     root = root_mass(packing.mass).ravel()
     right, left = (vectors[:, found.place] for vectors in (pairs.right, pairs.left))
     omega = complex(np.sqrt(pairs.value[found.place]))

@@ -35,7 +35,7 @@ from grainmodes.protocols.compression.trajectory import (
 from grainmodes.protocols.pair_tracking.detection import DETECTORS, seen_by
 from grainmodes.protocols.pair_tracking.tracking import PairWalk
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
-from grainmodes.protocols.shear.strain_step import first_balance, step_to
+from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fire_large_steps, relax_fire_newton
 from grainmodes.response.moduli import rigidity
@@ -232,7 +232,7 @@ def pairs_of_one_state_by_lapack(n: int) -> float:
 
 def pairs_of_one_state(n: int, detection: str) -> float:
     """Complex pairs of the state at γ = 0.01 alone."""
-    now = first_balance(packing_of_c(n), INTERACTION_OF_C, SHEAR_OF_C)
+    now = first_equilibrium(packing_of_c(n), INTERACTION_OF_C, SHEAR_OF_C)
     for step in range(1, 101):
         now, _ = step_to(step * SHEAR_OF_C.step, now, SHEAR_OF_C)
     return cpu(seen_by, DETECTORS[detection](), now)

@@ -33,7 +33,7 @@ CHOICES = Shear(0.1, 1e-3, 1e-6)
 def before_the_first_event(name: str, interaction) -> EquilibriumState:
     """The last balance before the first plastic event, which is 1e-6 away."""
     run = QuasistaticRun.from_packing(reference(name)[1], interaction, CHOICES)
-    return next(before for before, _ in accepted_steps(run) if run.events).balance
+    return next(before for before, _ in accepted_steps(run) if run.events).equilibrium
 
 
 def sigma(packing: Packing, interaction) -> float:

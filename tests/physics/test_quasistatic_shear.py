@@ -18,7 +18,7 @@ from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.events import RIGIDITY_DROP
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.protocols.shear.sheared_state import ShearedState
-from grainmodes.protocols.shear.strain_step import first_balance, step_to
+from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 from grainmodes.relaxation.frictionless import relax_fire_newton
 from grainmodes.stages.shear_rows import run_row
 
@@ -55,8 +55,10 @@ def test_rigidity_is_the_slope_of_both_stress_components(law, loaded):
     now, slopes = state_at(packing, law, choices), []
     for size in (2e-7, 1e-7):
         there, back = (
-            ShearedState(balance, 0, loaded).stress
-            for balance, _ in (step_to(now.strain + d, now.balance, choices) for d in (size, -size))
+            ShearedState(equilibrium, 0, loaded).stress
+            for equilibrium, _ in (
+                step_to(now.strain + d, now.equilibrium, choices) for d in (size, -size)
+            )
         )
         slopes.append((there - back) / (2.0 * size))
     extrapolated = (4.0 * slopes[1] - slopes[0]) / 3.0
@@ -97,13 +99,13 @@ def test_work_is_not_the_change_of_energy_where_the_affine_step_leaves_the_sprin
 def test_forward_and_back_leads_home(law):
     choices = Shear(step=1e-5, min_step=1e-9)
     now = state_at(reference(f"{law.normal}_n64_phi0.900_seed1")[1], law, choices)
-    there, _ = step_to(now.strain + 1e-6, now.balance, choices)
+    there, _ = step_to(now.strain + 1e-6, now.equilibrium, choices)
     back, _ = step_to(now.strain, there, choices)
-    assert np.abs(nonaffine_motion(now.balance.packing, there.packing)).max() > 1e-8
-    moved = nonaffine_motion(now.balance.packing, back.packing)
+    assert np.abs(nonaffine_motion(now.equilibrium.packing, there.packing)).max() > 1e-8
+    moved = nonaffine_motion(now.equilibrium.packing, back.packing)
     moved[:, :2] -= moved[:, :2].mean(axis=0)
     assert np.abs(moved).max() < 1e-12
-    difference = back.contacts.displacement - now.balance.contacts.displacement
+    difference = back.contacts.displacement - now.equilibrium.contacts.displacement
     assert np.abs(difference).max() < 1e-12
 
 
@@ -212,4 +214,4 @@ def test_a_box_at_one_half_is_the_box_at_minus_one_half():
 
 def test_the_first_balance_must_be_stable():
     with pytest.raises(ArithmeticError, match="no stable balance near the packing"):
-        first_balance(crowd(1), Interaction.from_law(B), Shear())
+        first_equilibrium(crowd(1), Interaction.from_law(B), Shear())

@@ -32,7 +32,7 @@ def run():
 
 
 def test_only_springs_that_start_anew_have_reopened(run):
-    before = run.state.balance
+    before = run.state.equilibrium
     after, _ = step_to(before.packing.strain + 1e-5, before, CHOICES)
     history, loads = after.packing.history, np.abs(before.packing.history.spring_state)
     assert np.array_equal(history.i, before.packing.history.i)
@@ -46,9 +46,9 @@ def test_only_springs_that_start_anew_have_reopened(run):
 
 def test_loaded_springs_cost_the_jacobian_its_symmetry(run):
     """Of max|J − Jᵀ| no more than −(f_T/r) n tᵀ of all contacts of a grain."""
-    balance = run.state.balance
-    row, whole = run_row(run), balance.matrix.toarray()
-    contacts = balance.backbone_contacts
+    equilibrium = run.state.equilibrium
+    row, whole = run_row(run), equilibrium.matrix.toarray()
+    contacts = equilibrium.backbone_contacts
     bent = np.abs(B.kt * contacts.displacement / contacts.distance)
     difference = np.abs(whole - whole.T).max()
     assert row["last_asymmetry"] == pytest.approx(difference / np.abs(whole).max())

@@ -17,7 +17,7 @@ from grainmodes.protocols.pair_tracking.tracking import Life, Located, PairWalk
 
 def tracking_row(tracking: PairWalk) -> dict[str, object]:
     """Everything recorded along a shear; not converged where it ended before the last strain."""
-    packing = tracking.now.balance.packing
+    packing = tracking.now.equilibrium.packing
     return {
         **{name: getattr(packing, name) for name in ("diameter", "mass", "box_length")},
         **_states(tracking),
@@ -131,10 +131,12 @@ def _unstable_state(chosen: Chosen | None) -> dict[str, object]:
     """The state to release, its pair refined to the last digits."""
     if chosen is None:
         return {"unstable_found": False}
-    balance = chosen.state.balance
-    packing, side = balance.packing, chosen.state.side(chosen.place)
-    plane = plane_near(mass_weighted_jacobian(balance.matrix, balance.backbone.mass), side.plane)
-    mode = motion_of(Side(balance, plane))
+    equilibrium = chosen.state.equilibrium
+    packing, side = equilibrium.packing, chosen.state.side(chosen.place)
+    plane = plane_near(
+        mass_weighted_jacobian(equilibrium.matrix, equilibrium.backbone.mass), side.plane
+    )
+    mode = motion_of(Side(equilibrium, plane))
     return {
         "unstable_found": True,
         "unstable_strain": packing.strain,
@@ -158,10 +160,10 @@ def motion_of(side: Side) -> np.ndarray:
 
     Its norm is 1 and its largest component real.
     """
-    balance = side.balance
-    scale = 1.0 / root_mass(balance.backbone.mass).ravel()
-    q = on_all_grains(scale[:, None] * side.plane.vectors[:, :1], balance.backbone_mask).reshape(
-        -1, 3
-    )
+    equilibrium = side.equilibrium
+    scale = 1.0 / root_mass(equilibrium.backbone.mass).ravel()
+    q = on_all_grains(
+        scale[:, None] * side.plane.vectors[:, :1], equilibrium.backbone_mask
+    ).reshape(-1, 3)
     largest = q.ravel()[np.argmax(np.abs(q))]
     return q * (abs(largest) / largest / np.linalg.norm(q))

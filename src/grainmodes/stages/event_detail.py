@@ -134,11 +134,11 @@ def _path_errors(packing: Packing, interaction: Interaction, choices: Shear) -> 
     if is_frictionless(interaction):
         return {}
     run = QuasistaticRun.from_packing(packing, interaction, choices)
-    path, errors = TangentialPath(run.state.balance), []
+    path, errors = TangentialPath(run.state.equilibrium), []
     for _, state in accepted_steps(run):
         if run.events:
             break
-        errors.append(path.follow(state.balance))
+        errors.append(path.follow(state.equilibrium))
     if not errors:
         return {"path_count": 0}
     columns = zip(PathError._fields, zip(*errors, strict=True), strict=True)

@@ -24,14 +24,14 @@ MAX_PAIR_DOF = 1200
 
 def run_row(run: QuasistaticRun) -> dict[str, object]:
     """Everything recorded along a shear; not converged where it ended before the last strain."""
-    balance = run.state.balance
-    packing, interaction = balance.packing, balance.interaction
+    equilibrium = run.state.equilibrium
+    packing, interaction = equilibrium.packing, equilibrium.interaction
     return {
         **{name: getattr(packing, name) for name in ("diameter", "mass", "box_length")},
         **_curve(run.curve),
         **_events(run.events, interaction),
-        "last_asymmetry": asymmetry(balance.matrix),
-        "last_complex_pairs": _count_pairs(balance),
+        "last_asymmetry": asymmetry(equilibrium.matrix),
+        "last_complex_pairs": _count_pairs(equilibrium),
         **_network_changes(run.network_changes),
         "jammed": True,
         "converged": run.done,
@@ -99,7 +99,7 @@ def _events(events: Sequence[PlasticEvent], interaction: Interaction) -> dict[st
         "event_reopened": [count_reopened(e.before, e.after, interaction) for e in events],
         **_states("before", before, [event.points[0] for event in events]),
         **_states("after", after, [event.points[1] for event in events]),
-        "event_complex_pairs_after": [_count_pairs(balance) for balance in after],
+        "event_complex_pairs_after": [_count_pairs(equilibrium) for equilibrium in after],
     }
 
 
@@ -108,27 +108,27 @@ def on_every_grain(field: np.ndarray) -> np.ndarray:
     return on_all_grains(field, np.zeros(len(field), bool))
 
 
-def _count_pairs(balance: EquilibriumState) -> float:
+def _count_pairs(equilibrium: EquilibriumState) -> float:
     """Number of complex pairs of M⁻¹J, 0 for a symmetric J; NaN where the matrix is too large."""
-    if is_frictionless(balance.interaction):
+    if is_frictionless(equilibrium.interaction):
         return 0.0
-    if balance.matrix.shape[0] > MAX_PAIR_DOF:
+    if equilibrium.matrix.shape[0] > MAX_PAIR_DOF:
         return np.nan
-    return float(complex_pairs(balance.backbone, balance.interaction))
+    return float(complex_pairs(equilibrium.backbone, equilibrium.interaction))
 
 
 def _states(
-    side: str, balances: Sequence[EquilibriumState], points: Sequence[CurvePoint]
+    side: str, equilibria: Sequence[EquilibriumState], points: Sequence[CurvePoint]
 ) -> dict[str, object]:
     """The states on one side of all events, with their grains and springs."""
-    packings = [balance.packing for balance in balances]
+    packings = [equilibrium.packing for equilibrium in equilibria]
     row = {
         "stress": [symmetric_shear(point.stress) for point in points],
         "g": [symmetric_shear(point.modulus) for point in points],
         "strain": [point.strain for point in points],
         "energy": [point.energy for point in points],
         "lowest_eigenvalue": [point.lowest_eigenvalue for point in points],
-        "asymmetry": [asymmetry(balance.matrix) for balance in balances],
+        "asymmetry": [asymmetry(equilibrium.matrix) for equilibrium in equilibria],
         "fraction": np.stack([packing.fraction.T for packing in packings]),
         **_springs(packings),
     }

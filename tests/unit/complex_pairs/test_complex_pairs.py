@@ -36,7 +36,7 @@ from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.exceptional_points import fitted
-from grainmodes.protocols.shear.strain_step import first_balance, step_to
+from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.response.stability import complex_pairs
 
@@ -382,7 +382,7 @@ def walk(coefficient: float, steps: int) -> list[DynamicalMatrix]:
     law = Interaction.from_law(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, coefficient))
     choices = Shear(step=1e-3, min_step=1e-3, force_tolerance=5e-14)
     packing = reference("hertz_n64_phi0.900_seed1")[1]
-    state, states = first_balance(replace(packing, mass=np.ones(packing.n)), law, choices), []
+    state, states = first_equilibrium(replace(packing, mass=np.ones(packing.n)), law, choices), []
     for step in range(1, steps + 1):
         state, _ = step_to(1e-3 * step, state, choices)
         matrix = mass_weighted_jacobian(state.matrix, state.backbone.mass)

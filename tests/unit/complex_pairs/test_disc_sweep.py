@@ -21,7 +21,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.shear.strain_step import first_balance, step_to
+from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 
 CHOICES = Shear(step=1e-3, min_step=1e-3, force_tolerance=5e-14)
 
@@ -32,7 +32,7 @@ def sheared(coefficient: float) -> sparse.csr_array:
         ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, coefficient)
     )
     packing = reference("hertz_n64_phi0.900_seed1")[1]
-    now = first_balance(replace(packing, mass=np.ones(packing.n)), interaction, CHOICES)
+    now = first_equilibrium(replace(packing, mass=np.ones(packing.n)), interaction, CHOICES)
     for step in range(1, 21):
         now, _ = step_to(1e-3 * step, now, CHOICES)
     return mass_weighted_jacobian(now.matrix, now.backbone.mass)

@@ -110,7 +110,7 @@ def test_without_friction_nothing_tangential_is_touched(monkeypatch):
     run = QuasistaticRun.from_packing(packing, NO_FRICTION, Shear(1e-3))
     while not run.done:
         run.advance()
-    for state in (packing, run.state.balance.packing):
+    for state in (packing, run.state.equilibrium.packing):
         assert state.rotation is None and state.history is None
 
 

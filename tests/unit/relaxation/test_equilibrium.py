@@ -18,7 +18,7 @@ from grainmodes.packing.forces import largest, net_force
 from grainmodes.packing.state import find_contacts, nonaffine_motion
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.shear.strain_step import first_balance, step_to
+from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 from grainmodes.relaxation.equilibrium_search import find_equilibrium
 from grainmodes.relaxation.equilibrium_state import (
     MAX_REUSES,
@@ -144,7 +144,7 @@ def test_a_state_with_negative_eigenvalues_is_unstable():
 def test_negative_pivots_of_a_lopsided_matrix_are_no_instability():
     """Hertz contacts about to open: ∂f_T/∂ξ is large, the pivots of a stable J are negative."""
     choices = Shear(step=1e-3)
-    now = first_balance(reference("hertz_n64_phi0.860_seed2")[1], HERTZIAN, choices)
+    now = first_equilibrium(reference("hertz_n64_phi0.860_seed2")[1], HERTZIAN, choices)
     for step in range(1, 41):
         now, _ = step_to(1e-3 * step, now, choices)
     assert now.factor._factor.n_below == 2

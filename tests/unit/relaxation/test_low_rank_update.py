@@ -60,16 +60,18 @@ def test_one_contact_more_or_less_is_solved_exactly(law):
         np.testing.assert_allclose(update.solve(force), exact, atol=1e-9 * np.abs(exact).max())
 
 
-def without_contact(balance: EquilibriumState, place: int) -> EquilibriumState:
+def without_contact(equilibrium: EquilibriumState, place: int) -> EquilibriumState:
     """The same state, one contact left out of its list."""
-    kept = np.arange(len(balance.contacts.i)) != place
-    contacts = balance.contacts
+    kept = np.arange(len(equilibrium.contacts.i)) != place
+    contacts = equilibrium.contacts
     s = contacts.spring_state
     less = type(contacts)(
         *(getattr(contacts, name)[kept] for name in ("i", "j", "normal", "distance", "overlap")),
         None if s is None else s[kept],
     )
-    return EquilibriumState(balance.packing, less, balance.backbone_mask, balance.interaction)
+    return EquilibriumState(
+        equilibrium.packing, less, equilibrium.backbone_mask, equilibrium.interaction
+    )
 
 
 def test_an_eigenvalue_that_passes_zero_is_noticed():
@@ -84,8 +86,8 @@ def test_an_eigenvalue_that_passes_zero_is_noticed():
     assert 0 < sum(sign_changes) < len(sign_changes)
 
 
-def negative(balance: EquilibriumState) -> int:
-    return np.count_nonzero(scipy.linalg.eigvals(balance.matrix.toarray()).real < -1e-9)
+def negative(equilibrium: EquilibriumState) -> int:
+    return np.count_nonzero(scipy.linalg.eigvals(equilibrium.matrix.toarray()).real < -1e-9)
 
 
 def test_there_is_no_update_for_too_many_changes():

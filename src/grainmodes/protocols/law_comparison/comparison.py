@@ -30,7 +30,7 @@ from grainmodes.protocols.shear.coulomb_threshold import (
     fastest_pair,
     slipping_contacts,
 )
-from grainmodes.protocols.shear.strain_step import first_balance, step_to
+from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 STATES = 20
@@ -53,12 +53,12 @@ class Seen(NamedTuple):
     growth: float
 
     @classmethod
-    def of(cls, balance: EquilibriumState) -> Seen:
+    def of(cls, equilibrium: EquilibriumState) -> Seen:
         """Count the pairs of a state, and release it where there is one."""
         packing, contacts, interaction = (
-            balance.backbone,
-            balance.backbone_contacts,
-            balance.interaction,
+            equilibrium.backbone,
+            equilibrium.backbone_contacts,
+            equilibrium.interaction,
         )
         slips, sticks = (
             fastest_pair(packing, contacts, interaction, s) for s in (SLIPPING, STICKING)
@@ -81,11 +81,11 @@ def variant(packing: Packing, interaction: Interaction, choices: Shear) -> Varia
     found, steps = Variant(), round(choices.strain / choices.step)
     every = max(1, steps // STATES)
     try:
-        balance = first_balance(packing, interaction, choices)
+        equilibrium = first_equilibrium(packing, interaction, choices)
         for step in range(1, steps + 1):
-            balance, _ = step_to(step * choices.step, balance, choices)
+            equilibrium, _ = step_to(step * choices.step, equilibrium, choices)
             if step % every == 0:
-                found.seen.append(Seen.of(balance))
+                found.seen.append(Seen.of(equilibrium))
     except ArithmeticError as error:
         found.ending = str(error)
     return found

@@ -70,7 +70,7 @@ DETECTORS: dict[str, type[Detector]] = {
 class Seen:
     """A state with its pairs, their vectors on all grains."""
 
-    balance: EquilibriumState
+    equilibrium: EquilibriumState
     pairs: ComplexPairs
 
     @cached_property
@@ -81,28 +81,28 @@ class Seen:
     @property
     def strain(self) -> float:
         """γ."""
-        return self.balance.packing.strain
+        return self.equilibrium.packing.strain
 
     def motions(self, places: np.ndarray) -> np.ndarray:
         """q = M^(−1/2) u of some of the pairs, (N, 3, P) complex."""
-        scale = 1.0 / root_mass(self.balance.packing.mass)
+        scale = 1.0 / root_mass(self.equilibrium.packing.mass)
         return self.pairs.right[:, places].reshape(*scale.shape, -1) * scale[:, :, None]
 
     def side(self, place: int) -> Side:
         """The state with the plane of one of its pairs."""
-        held = np.repeat(self.balance.backbone_mask, 3)
+        held = np.repeat(self.equilibrium.backbone_mask, 3)
         right, left = (
             np.stack([of[held, place].real, of[held, place].imag], axis=1)
             for of in (self.pairs.right, self.pairs.left)
         )
-        matrix = mass_weighted_jacobian(self.balance.matrix, self.balance.backbone.mass)
-        return Side(self.balance, plane_of(matrix, right, left))
+        matrix = mass_weighted_jacobian(self.equilibrium.matrix, self.equilibrium.backbone.mass)
+        return Side(self.equilibrium, plane_of(matrix, right, left))
 
 
-def seen_by(detector: Detector, balance: EquilibriumState) -> Seen:
+def seen_by(detector: Detector, equilibrium: EquilibriumState) -> Seen:
     """A state with the pairs that a detector finds in it."""
-    mass = balance.backbone.mass
-    matrix = mass_weighted_jacobian(balance.matrix, mass)
-    found = detector.find(DynamicalMatrix(matrix, translations(mass), balance.backbone_mask))
-    right, left = (on_all_grains(of, balance.backbone_mask) for of in (found.right, found.left))
-    return Seen(balance, ComplexPairs(found.value, right, left))
+    mass = equilibrium.backbone.mass
+    matrix = mass_weighted_jacobian(equilibrium.matrix, mass)
+    found = detector.find(DynamicalMatrix(matrix, translations(mass), equilibrium.backbone_mask))
+    right, left = (on_all_grains(of, equilibrium.backbone_mask) for of in (found.right, found.left))
+    return Seen(equilibrium, ComplexPairs(found.value, right, left))

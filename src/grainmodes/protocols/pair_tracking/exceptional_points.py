@@ -47,13 +47,13 @@ TURNED = 0.7
 class Side(NamedTuple):
     """A state next to γ_c and the plane of the two modes in it."""
 
-    balance: EquilibriumState
+    equilibrium: EquilibriumState
     plane: Plane
 
     @property
     def strain(self) -> float:
         """γ."""
-        return self.balance.packing.strain
+        return self.equilibrium.packing.strain
 
     @property
     def is_pair(self) -> bool:
@@ -105,7 +105,7 @@ def located(
     """
     born, jumped = other.packing.strain < pair.strain, False
     while abs(pair.strain - other.packing.strain) > bracket:
-        low = other if born else pair.balance
+        low = other if born else pair.equilibrium
         middle, by_dynamics = step_to(0.5 * (pair.strain + other.packing.strain), low, choices)
         side = followed(pair, middle)
         if side is not None and side.is_pair:
@@ -115,18 +115,18 @@ def located(
     return _judged(pair, other, jumped, choices)
 
 
-def followed(start: Side, balance: EquilibriumState) -> Side | None:
+def followed(start: Side, equilibrium: EquilibriumState) -> Side | None:
     """The plane of a state in a later or earlier one; None where it is lost."""
-    if not np.array_equal(start.balance.backbone_mask, balance.backbone_mask):
+    if not np.array_equal(start.equilibrium.backbone_mask, equilibrium.backbone_mask):
         return None
     try:
         plane = plane_near(
-            mass_weighted_jacobian(balance.matrix, balance.backbone.mass), start.plane
+            mass_weighted_jacobian(equilibrium.matrix, equilibrium.backbone.mass), start.plane
         )
     except ArithmeticError:
         return None
     same = plane.residual <= SETTLED and plane.part_of(start.plane) > TURNED
-    return Side(balance, plane) if same else None
+    return Side(equilibrium, plane) if same else None
 
 
 def _judged(pair: Side, other: EquilibriumState, jumped: bool, choices: Shear) -> ExceptionalPoint:
@@ -134,7 +134,7 @@ def _judged(pair: Side, other: EquilibriumState, jumped: bool, choices: Shear) -
     ends = sorted((pair.strain, other.packing.strain))
     if jumped:
         return ExceptionalPoint(JUMP, *ends, np.mean(ends))
-    if any(count_network_changes(pair.balance, other)):
+    if any(count_network_changes(pair.equilibrium, other)):
         return ExceptionalPoint(CONTACT_CHANGE, *ends, np.mean(ends))
     real = followed(pair, other)
     if real is None or real.is_pair:
@@ -152,11 +152,11 @@ def _branch(end: Side, origin: float, distances: np.ndarray, choices: Shear) -> 
     now = end
     for distance in distances.tolist():
         try:
-            balance, jumped = step_to(origin + distance, now.balance, choices)
+            equilibrium, jumped = step_to(origin + distance, now.equilibrium, choices)
         except ArithmeticError:
             return
-        side = followed(now, balance)
-        if side is None or jumped or any(count_network_changes(end.balance, balance)):
+        side = followed(now, equilibrium)
+        if side is None or jumped or any(count_network_changes(end.equilibrium, equilibrium)):
             return
         if side.is_pair != end.is_pair:
             return

@@ -52,7 +52,7 @@ def fastest_with_room(state: Seen, slower: float) -> Chosen | None:
     faster = np.flatnonzero(growth > slower)
     if not len(faster):
         return None
-    room = rooms(state.balance, state.motions(faster))
+    room = rooms(state.equilibrium, state.motions(faster))
     roomy = room > GROWTH_RANGE[1]
     if not roomy.any():
         return None
@@ -61,9 +61,9 @@ def fastest_with_room(state: Seen, slower: float) -> Chosen | None:
     return Chosen(float(growth[place]), state, place, float(room[best]))
 
 
-def rooms(balance: EquilibriumState, motions: np.ndarray) -> np.ndarray:
+def rooms(equilibrium: EquilibriumState, motions: np.ndarray) -> np.ndarray:
     """M of the first change of contacts along every mode, (P,)."""
-    packing, held = balance.packing, balance.backbone_mask
+    packing, held = equilibrium.packing, equilibrium.backbone_mask
     larger = replace(packing, diameter=packing.diameter + FARTHEST, history=None)
     near = find_contacts(larger)
     loaded = held[near.i] & held[near.j]

@@ -56,9 +56,9 @@ def products_along(pair: Side, states: list[EquilibriumState]) -> list[Products]
     """
     if pair.plane.right.shape[0] > FEW:
         return []
-    values, _ = _modes(pair.balance)
+    values, _ = _modes(pair.equilibrium)
     mode = int(np.argmin(np.abs(values - pair.plane.values[0].conj())))
-    held = pair.balance.backbone_mask
+    held = pair.equilibrium.backbone_mask
     return [_products(state, mode) for state in states if np.array_equal(state.backbone_mask, held)]
 
 

@@ -39,7 +39,7 @@ from grainmodes.protocols.pair_tracking.exceptional_points import (
 )
 from grainmodes.protocols.pair_tracking.linear_range import Chosen, fastest_with_room
 from grainmodes.protocols.shear.events import count_network_changes
-from grainmodes.protocols.shear.strain_step import first_balance, step_to
+from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 
@@ -103,11 +103,13 @@ class PairWalk:
         Raises:
             ArithmeticError: the packing has no stable balance.
         """
-        balance = first_balance(packing, interaction, choices)
+        equilibrium = first_equilibrium(packing, interaction, choices)
         detector, other = (DETECTORS[asked.detection]() for _ in range(2))
         of_jacobian = other if asked.jacobian else None
-        walk = cls(seen_by(detector, balance), choices, asked, detector, of_jacobian)
-        walk.lives = [Life((np.nan, balance.packing.strain), NEVER) for _ in walk.now.pairs.value]
+        walk = cls(seen_by(detector, equilibrium), choices, asked, detector, of_jacobian)
+        walk.lives = [
+            Life((np.nan, equilibrium.packing.strain), NEVER) for _ in walk.now.pairs.value
+        ]
         walk.alive = list(range(len(walk.lives)))
         walk._count()
         return walk
@@ -124,27 +126,27 @@ class PairWalk:
             ArithmeticError: no balance was found, or the eigensolver failed.
         """
         strain = len(self.counts) * self.choices.step
-        balance, jumped = step_to(strain, self.now.balance, self.choices)
-        before, self.now = self.now, seen_by(self.detector, balance)
+        equilibrium, jumped = step_to(strain, self.now.equilibrium, self.choices)
+        before, self.now = self.now, seen_by(self.detector, equilibrium)
         self._follow(before, jumped)
         self._count()
 
     def _follow(self, before: Seen, jumped: bool) -> None:
         """Hand every life on to its pair in the new state; end some and begin some."""
         common = dict(matched(before.planes, self.now.planes))
-        changed = any(count_network_changes(before.balance, self.now.balance))
+        changed = any(count_network_changes(before.equilibrium, self.now.equilibrium))
         kind = JUMP if jumped else UNDECIDED if changed else COALESCENCE
         step = before.strain, self.now.strain
         heirs = {common[old]: life for old, life in enumerate(self.alive) if old in common}
         for old, life in enumerate(self.alive):
             if old not in common:
                 self.lives[life].death, self.lives[life].death_kind = step, kind
-                self._locate(life, before, old, self.now.balance, jumped)
+                self._locate(life, before, old, self.now.equilibrium, jumped)
         for new in range(len(self.now.pairs.value)):
             if new not in heirs:
                 heirs[new] = len(self.lives)
                 self.lives.append(Life(step, kind))
-                self._locate(heirs[new], self.now, new, before.balance, jumped)
+                self._locate(heirs[new], self.now, new, before.equilibrium, jumped)
         self.alive = [heirs[new] for new in range(len(self.now.pairs.value))]
 
     def _locate(
@@ -170,7 +172,7 @@ class PairWalk:
 
     def _count(self) -> None:
         """Record the state."""
-        self.states.append(self.now.balance.without_factors())
+        self.states.append(self.now.equilibrium.without_factors())
         pairs = self.now.pairs
         growth = pairs.growth
         for life, rate in zip(self.alive, growth.tolist(), strict=True):
@@ -185,10 +187,10 @@ class PairWalk:
         self.unstable = fastest_with_room(self.now, slower) or self.unstable
 
     def _in_numbers(self, fastest: complex, condition: float) -> Count:
-        of_jacobian, balance = np.nan, self.now.balance
+        of_jacobian, equilibrium = np.nan, self.now.equilibrium
         if self.of_jacobian:
-            null = translations(np.ones(balance.backbone.n))
-            loaded = DynamicalMatrix(balance.matrix.tocsr(), null, balance.backbone_mask)
+            null = translations(np.ones(equilibrium.backbone.n))
+            loaded = DynamicalMatrix(equilibrium.matrix.tocsr(), null, equilibrium.backbone_mask)
             of_jacobian = len(self.of_jacobian.find(loaded).value)
         pairs, dense = len(self.now.pairs.value), self.detector.dense
         return Count(self.now.strain, pairs, of_jacobian, fastest, condition, dense)

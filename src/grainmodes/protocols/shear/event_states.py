@@ -73,28 +73,28 @@ def _states_on_branch(
             slope = (_state_at(state.strain + size, state, choices).sigma - state.sigma) / size
         except ArithmeticError:
             break
-        changes = sum(count_network_changes(end.balance, state.balance))
+        changes = sum(count_network_changes(end.equilibrium, state.equilibrium))
         found.append(BranchState(distance, state, slope, changes))
     return found
 
 
 def _state_at(strain: float, before: ShearedState, choices: Shear) -> ShearedState:
-    balance, jumped = step_to(strain, before.balance, choices)
+    equilibrium, jumped = step_to(strain, before.equilibrium, choices)
     units = round(strain / choices.min_step)
-    return ShearedState(balance, units, choices.loaded, jumped)
+    return ShearedState(equilibrium, units, choices.loaded, jumped)
 
 
 def lowest_mode_of(state: ShearedState) -> tuple[LowestMode, np.ndarray]:
     """The lowest mode of J, and its eigenvector on all grains, (N, 3), NaN on rattlers."""
-    balance = state.balance
-    mode = lowest_mode(balance.matrix, balance.factor, balance.force.shape[1])
-    vector = mode.vector.reshape(len(balance.force), -1)
-    return mode, on_all_grains(vector, ~balance.backbone_mask)
+    equilibrium = state.equilibrium
+    mode = lowest_mode(equilibrium.matrix, equilibrium.factor, equilibrium.force.shape[1])
+    vector = mode.vector.reshape(len(equilibrium.force), -1)
+    return mode, on_all_grains(vector, ~equilibrium.backbone_mask)
 
 
 def nonaffine_rate(state: ShearedState) -> np.ndarray:
     """dq̊/dγ by linear response, (N, 3) in d, NaN on rattlers: B (41)."""
-    return on_all_grains(state.response.displacement, ~state.balance.backbone_mask)
+    return on_all_grains(state.response.displacement, ~state.equilibrium.backbone_mask)
 
 
 def simulated_nonaffine_rate(state: ShearedState, choices: Shear) -> np.ndarray:
@@ -104,7 +104,9 @@ def simulated_nonaffine_rate(state: ShearedState, choices: Shear) -> np.ndarray:
         ArithmeticError: no balance was found after the step.
     """
     after = _state_at(state.strain + RATE_STEP, state, choices)
-    held = state.balance.backbone_mask
-    motion = nonaffine_motion(state.balance.packing, after.balance.packing)[held] / RATE_STEP
+    held = state.equilibrium.backbone_mask
+    motion = (
+        nonaffine_motion(state.equilibrium.packing, after.equilibrium.packing)[held] / RATE_STEP
+    )
     motion[:, :2] -= motion[:, :2].mean(axis=0)
     return on_all_grains(motion, ~held)

@@ -59,7 +59,7 @@ class PlasticEvent(NamedTuple):
         cls, before: ShearedState, after: ShearedState, kind: int, opened: int, closed: int
     ) -> PlasticEvent:
         """The event that lies between two states, without the motion of the centre."""
-        packings = before.balance.packing, after.balance.packing
+        packings = before.equilibrium.packing, after.equilibrium.packing
         points = before.curve_point(with_lowest=True), after.curve_point(with_lowest=True)
         displacement = nonaffine_motion(*packings)
         displacement[:, :2] -= displacement[:, :2].mean(axis=0)

@@ -28,7 +28,7 @@ from grainmodes.protocols.shear.events import (
     event_kind,
 )
 from grainmodes.protocols.shear.sheared_state import CurvePoint, ShearedState
-from grainmodes.protocols.shear.strain_step import first_balance, step_to
+from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 from grainmodes.runtime.progress import Progress
 
 
@@ -59,9 +59,11 @@ class QuasistaticRun:
         Raises:
             ArithmeticError: the packing has no stable balance.
         """
-        balance = first_balance(packing, interaction, choices)
+        equilibrium = first_equilibrium(packing, interaction, choices)
         units = round(packing.strain / choices.min_step)
-        run = cls(ShearedState(balance, units, choices.loaded), choices, units_per_step(choices))
+        run = cls(
+            ShearedState(equilibrium, units, choices.loaded), choices, units_per_step(choices)
+        )
         run._record_point()
         return run
 
@@ -80,7 +82,7 @@ class QuasistaticRun:
     @property
     def restartable(self) -> bool:
         """Whether the state alone, without factors of earlier states, leads to the same bytes."""
-        return self.state.balance.factors_for_next.age == 1
+        return self.state.equilibrium.factors_for_next.age == 1
 
     @property
     def _last_units(self) -> int:
@@ -113,14 +115,14 @@ class QuasistaticRun:
     def _state_after(self, units: int) -> ShearedState:
         units_after = self.state.strain_units + units
         strain = units_after * self.choices.min_step
-        balance, jumped = step_to(strain, self.state.balance, self.choices)
+        equilibrium, jumped = step_to(strain, self.state.equilibrium, self.choices)
         guess = self.state.response.displacement
-        return ShearedState(balance, units_after, self.choices.loaded, jumped, guess)
+        return ShearedState(equilibrium, units_after, self.choices.loaded, jumped, guess)
 
     def _accept(self, after: ShearedState, kind: int) -> None:
         """Go on to the next state, and record what happened on the way."""
         before = self.state
-        opened, closed = count_network_changes(before.balance, after.balance)
+        opened, closed = count_network_changes(before.equilibrium, after.equilibrium)
         if opened or closed or after.jumped:
             change = NetworkChange(before.strain, after.strain, opened, closed, after.jumped)
             self.network_changes.append(change)

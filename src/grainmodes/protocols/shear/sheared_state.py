@@ -43,7 +43,7 @@ class ShearedState:
     (N', k) in d, from which the iteration for its own field starts.
     """
 
-    balance: EquilibriumState
+    equilibrium: EquilibriumState
     strain_units: int
     loaded: bool
     jumped: bool = False
@@ -52,13 +52,13 @@ class ShearedState:
     @property
     def strain(self) -> float:
         """γ."""
-        return self.balance.packing.strain
+        return self.equilibrium.packing.strain
 
     @cached_property
     def stress(self) -> np.ndarray:
         """σ_αβ, (2, 2) in k_N d^(1/2): B (15)."""
-        balance = self.balance
-        return stress(balance.backbone, balance.backbone_contacts, balance.interaction)
+        equilibrium = self.equilibrium
+        return stress(equilibrium.backbone, equilibrium.backbone_contacts, equilibrium.interaction)
 
     @cached_property
     def response(self) -> Moduli:
@@ -67,11 +67,14 @@ class ShearedState:
         Raises:
             FloppyError: the backbone has zero modes beyond the translations.
         """
-        balance = self.balance
+        equilibrium = self.equilibrium
         step = AffineStep(
-            balance.backbone, balance.backbone_contacts, balance.interaction, self.loaded
+            equilibrium.backbone,
+            equilibrium.backbone_contacts,
+            equilibrium.interaction,
+            self.loaded,
         )
-        return step.moduli(balance.solve(step.force, self.response_guess))
+        return step.moduli(equilibrium.solve(step.force, self.response_guess))
 
     @cached_property
     def modulus(self) -> np.ndarray:
@@ -91,18 +94,18 @@ class ShearedState:
     @cached_property
     def lowest_eigenvalue(self) -> float:
         """Smallest |λ| of J apart from its two translations, with the sign of its real part."""
-        balance = self.balance
-        return lowest_eigenvalue(balance.matrix, balance.factor, balance.force.shape[1])
+        equilibrium = self.equilibrium
+        return lowest_eigenvalue(equilibrium.matrix, equilibrium.factor, equilibrium.force.shape[1])
 
     def curve_point(self, with_lowest: bool) -> CurvePoint:
         """This state in numbers, on request with the lowest eigenvalue of J."""
-        balance = self.balance
-        grains = int(balance.backbone_mask.sum())
+        equilibrium = self.equilibrium
+        grains = int(equilibrium.backbone_mask.sum())
         return CurvePoint(
             self.strain,
             self.stress,
             self.modulus,
-            energy(balance.backbone_contacts, balance.interaction),
-            2.0 * len(balance.backbone_contacts.i) / grains if grains else 0.0,
+            energy(equilibrium.backbone_contacts, equilibrium.interaction),
+            2.0 * len(equilibrium.backbone_contacts.i) / grains if grains else 0.0,
             self.lowest_eigenvalue if with_lowest else np.nan,
         )

@@ -44,7 +44,9 @@ HANDOVER_REDUCTION = 0.1
 """Factor by which the handover force is lowered where Newton's method leaves the basin."""
 
 
-def first_balance(packing: Packing, interaction: Interaction, choices: Shear) -> EquilibriumState:
+def first_equilibrium(
+    packing: Packing, interaction: Interaction, choices: Shear
+) -> EquilibriumState:
     """The stable balance of a packing that is in balance already, or nearly.
 
     Raises:
@@ -73,7 +75,7 @@ def step_to(
         )
         if found is not None and not found.unstable:
             return found, False
-    return _balance_by_dynamics(affine, before, choices), True
+    return _equilibrium_by_dynamics(affine, before, choices), True
 
 
 def strained_affinely(before: EquilibriumState, strain: float, loaded: bool) -> Packing:
@@ -98,7 +100,7 @@ def strained_affinely(before: EquilibriumState, strain: float, loaded: bool) -> 
     return replace(sheared, history=History(contacts.i, contacts.j, s))
 
 
-def _balance_by_dynamics(
+def _equilibrium_by_dynamics(
     packing: Packing, before: EquilibriumState, choices: Shear
 ) -> EquilibriumState:
     """Dynamics into the basin of a balance, then Newton's method to the balance.

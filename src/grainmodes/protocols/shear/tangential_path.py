@@ -50,15 +50,15 @@ class PathError(NamedTuple):
 class TangentialPath:
     """V of every contact along a shear, (C, 2) in d; it starts as s t of the first balance."""
 
-    def __init__(self, balance: EquilibriumState):
-        contacts = balance.contacts
-        self._keys, self._contacts = _contact_keys(balance), contacts
+    def __init__(self, equilibrium: EquilibriumState):
+        contacts = equilibrium.contacts
+        self._keys, self._contacts = _contact_keys(equilibrium), contacts
         self._path = contacts.displacement[:, None] * contacts.tangent
         self._first_normal = contacts.normal
 
-    def follow(self, balance: EquilibriumState) -> PathError:
+    def follow(self, equilibrium: EquilibriumState) -> PathError:
         """Go on to the next state; a contact that has closed begins with V = 0."""
-        contacts, keys = balance.contacts, _contact_keys(balance)
+        contacts, keys = equilibrium.contacts, _contact_keys(equilibrium)
         _, new, old = np.intersect1d(keys, self._keys, assume_unique=True, return_indices=True)
         middle, slide = contacts.normal.copy(), contacts.displacement.copy()
         middle[new] += self._contacts.normal[old]
@@ -71,7 +71,7 @@ class TangentialPath:
         self._keys, self._contacts = keys, contacts
         self._path, self._first_normal = path, first_normal
         return PathError(
-            balance.packing.strain,
+            equilibrium.packing.strain,
             *_largest_and_median(normal_part(path, contacts.normal)),
             _largest_and_median(normal_part(step, middle))[0],
             _largest_and_median(_turn(first_normal, contacts.normal))[1],
@@ -102,7 +102,7 @@ def _largest_and_median(values: np.ndarray) -> tuple[float, float]:
     return (float(values.max()), float(np.median(values))) if len(values) else (np.nan, np.nan)
 
 
-def _contact_keys(balance: EquilibriumState) -> np.ndarray:
+def _contact_keys(equilibrium: EquilibriumState) -> np.ndarray:
     """One number for every contact, ascending, (C,) int64."""
-    contacts = balance.contacts
-    return contacts.i.astype(np.int64) * balance.packing.n + contacts.j
+    contacts = equilibrium.contacts
+    return contacts.i.astype(np.int64) * equilibrium.packing.n + contacts.j

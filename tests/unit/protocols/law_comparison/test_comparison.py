@@ -21,10 +21,10 @@ def test_states_are_spread_over_the_way(monkeypatch):
 
 
 def test_a_way_that_ends_keeps_what_was_seen(monkeypatch):
-    def step_to(strain, balance, choices):
+    def step_to(strain, equilibrium, choices):
         if strain > 1.05e-3:
             raise ArithmeticError("lost")
-        return balance, False
+        return equilibrium, False
 
     monkeypatch.setattr(comparison, "step_to", step_to)
     found = variant(reference("harmonic_n16_phi0.900_seed1")[1], Interaction.from_law(C8), BRIEF)

@@ -18,7 +18,7 @@ TURN = np.exp(-2j * np.pi * np.arange(60) / 60)
 """Phases of a turn."""
 
 
-def balance() -> EquilibriumState:
+def sheared_equilibrium() -> EquilibriumState:
     start, _, interaction = state()
     return EquilibriumState.from_packing(start.packing, interaction)
 
@@ -59,7 +59,7 @@ def first_change(packing, mode: np.ndarray) -> tuple[float, bool]:
 
 @pytest.mark.parametrize("opens", [True, False])
 def test_the_room_is_where_contacts_change_on_the_way(opens):
-    equilibrium = balance() if opens else nearly_closed(balance())
+    equilibrium = sheared_equilibrium() if opens else nearly_closed(sheared_equilibrium())
     modes = motions(equilibrium)
     found = [first_change(equilibrium.packing, mode) for mode in np.moveaxis(modes, 2, 0)]
     np.testing.assert_allclose(
@@ -88,7 +88,7 @@ def nearly_closed(equilibrium: EquilibriumState) -> EquilibriumState:
 
 
 def test_the_room_is_one_of_a_direction_and_not_of_a_vector():
-    equilibrium = balance()
+    equilibrium = sheared_equilibrium()
     modes = motions(equilibrium)
     np.testing.assert_allclose(
         rooms(equilibrium, 1e-7 * np.exp(0.3j) * modes), rooms(equilibrium, modes)
@@ -97,7 +97,7 @@ def test_the_room_is_one_of_a_direction_and_not_of_a_vector():
 
 def test_a_loose_grain_takes_no_room():
     """A grain that only one contact holds is put down at zero overlap."""
-    equilibrium = balance()
+    equilibrium = sheared_equilibrium()
     weakest = np.argmin(equilibrium.contacts.overlap)
     grain = equilibrium.contacts.i[weakest]
     held = np.arange(equilibrium.packing.n) != grain
@@ -123,7 +123,7 @@ def seen(equilibrium: EquilibriumState) -> Seen:
 
 
 def test_a_state_next_to_a_change_of_contacts_is_passed_over():
-    wide, narrow = seen(balance()), seen(narrowed(balance()))
+    wide, narrow = seen(sheared_equilibrium()), seen(narrowed(sheared_equilibrium()))
     assert len(narrow.pairs.value) > 0
     chosen = fastest_with_room(wide, 0.0)
     assert chosen.growth == wide.pairs.growth.max() == wide.pairs.growth[chosen.place]
@@ -134,17 +134,19 @@ def test_a_state_next_to_a_change_of_contacts_is_passed_over():
 
 
 def test_of_the_pairs_of_a_state_the_fastest_with_room_is_taken(monkeypatch):
-    equilibrium = seen(balance())
+    equilibrium = seen(sheared_equilibrium())
     growth, room = (
         equilibrium.pairs.growth,
-        rooms(equilibrium.balance, equilibrium.motions(np.arange(len(equilibrium.pairs.value)))),
+        rooms(
+            equilibrium.equilibrium, equilibrium.motions(np.arange(len(equilibrium.pairs.value)))
+        ),
     )
     fastest = np.argmax(growth)
     assert room[fastest] < room.max()
     monkeypatch.setattr(
         "grainmodes.protocols.pair_tracking.linear_range.GROWTH_RANGE", (0.0, room[fastest])
     )
-    chosen = fastest_with_room(equilibrium, 0.0)
+    chosen = fastest_with_room(start, 0.0)
     assert chosen.growth == growth[room > room[fastest]].max()
     assert chosen.room == room[chosen.place]
 
@@ -152,7 +154,7 @@ def test_of_the_pairs_of_a_state_the_fastest_with_room_is_taken(monkeypatch):
 def test_a_release_changes_its_contacts_where_linear_theory_says():
     """Within a factor of three of M: it is looked at now and then, and M swings."""
     start, _, _ = state()
-    expected = rooms(balance(), start.mode[:, :, None])[0]
+    expected = rooms(sheared_equilibrium(), start.mode[:, :, None])[0]
     outcome = release_outcome(
         released(Release(duration=22.0, min_time=0.0, n_records=2000, spectra=0))
     )

@@ -111,7 +111,7 @@ def test_a_fold_is_seen_as_one():
 def test_the_lowest_mode_is_that_of_a_dense_spectrum(law, side):
     state = getattr(narrowest(law), side)
     mode, field = lowest_mode_of(state)
-    matrix, held = state.balance.matrix.toarray(), state.balance.backbone_mask
+    matrix, held = state.equilibrium.matrix.toarray(), state.equilibrium.backbone_mask
     values = np.linalg.eigvals(matrix)
     values = values[np.argsort(np.abs(values))]
     assert mode.eigenvalue == pytest.approx(values[2].real, rel=1e-9)
@@ -125,12 +125,12 @@ def test_the_lowest_mode_is_that_of_a_dense_spectrum(law, side):
 
 
 def test_few_grains_have_the_same_lowest_mode(monkeypatch):
-    balance = narrowest(B).after.balance
+    equilibrium = narrowest(B).after.equilibrium
     modes = []
     for small in (SMALL, 1000):
         monkeypatch.setattr("grainmodes.response.stability.SMALL", small)
-        factor = PinnedFactor(balance.matrix, symmetric=False)
-        modes.append(lowest_mode(balance.matrix, factor, 3))
+        factor = PinnedFactor(equilibrium.matrix, symmetric=False)
+        modes.append(lowest_mode(equilibrium.matrix, factor, 3))
     assert_allclose(modes[1].vector, modes[0].vector, rtol=0, atol=1e-9)
     assert modes[1].eigenvalue == pytest.approx(modes[0].eigenvalue, rel=1e-10)
 

@@ -53,8 +53,8 @@ def errors(step: float) -> list:
     run = QuasistaticRun.from_packing(
         packing_for(B), Interaction.from_law(B), Shear(1e-3, step, step)
     )
-    path = TangentialPath(run.state.balance)
-    return [path.follow(now.balance) for _, now in accepted_steps(run)]
+    path = TangentialPath(run.state.equilibrium)
+    return [path.follow(now.equilibrium) for _, now in accepted_steps(run)]
 
 
 def test_the_integral_of_tangential_velocities_is_not_tangential():
