@@ -134,13 +134,9 @@ def test_a_state_next_to_a_change_of_contacts_is_passed_over():
 
 
 def test_of_the_pairs_of_a_state_the_fastest_with_room_is_taken(monkeypatch):
-    equilibrium = seen(sheared_equilibrium())
-    growth, room = (
-        equilibrium.pairs.growth,
-        rooms(
-            equilibrium.equilibrium, equilibrium.motions(np.arange(len(equilibrium.pairs.value)))
-        ),
-    )
+    start = seen(sheared_equilibrium())
+    motions_of_pairs = start.motions(np.arange(len(start.pairs.value)))
+    growth, room = start.pairs.growth, rooms(start.equilibrium, motions_of_pairs)
     fastest = np.argmax(growth)
     assert room[fastest] < room.max()
     monkeypatch.setattr(
