@@ -212,6 +212,6 @@ def test_a_box_at_one_half_is_the_box_at_minus_one_half():
     np.testing.assert_allclose(*stiff, atol=1e-13)
 
 
-def test_the_first_balance_must_be_stable():
-    with pytest.raises(ArithmeticError, match="no stable balance near the packing"):
+def test_the_first_equilibrium_must_be_stable():
+    with pytest.raises(ArithmeticError, match="no stable equilibrium near the packing"):
         first_equilibrium(crowd(1), Interaction.from_law(B), Shear())

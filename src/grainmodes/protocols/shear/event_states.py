@@ -46,7 +46,7 @@ class BranchState(NamedTuple):
 
 
 def states_around(bracket: Bracket, choices: Shear) -> list[BranchState]:
-    """The states on both branches, γ ascending; a branch ends early where no balance is found."""
+    """The states on both branches, γ ascending; a branch ends where there is no equilibrium."""
     low, high = bracket.before, bracket.after
     distances = branch_distances(choices)
     before = _states_on_branch(low, [-d for d in distances], high.strain, choices)
@@ -101,7 +101,7 @@ def simulated_nonaffine_rate(state: ShearedState, choices: Shear) -> np.ndarray:
     """dq̊/dγ by a step of `RATE_STEP`, (N, 3) in d, NaN on rattlers: B (13), (14).
 
     Raises:
-        ArithmeticError: no balance was found after the step.
+        ArithmeticError: no equilibrium was found after the step.
     """
     after = _state_at(state.strain + RATE_STEP, state, choices)
     held = state.equilibrium.backbone_mask

@@ -1,8 +1,8 @@
 """The first event of a shear in ever narrower brackets: B, Appendix B, Figs. 11 and 12.
 
-Every bracket is found by a run of its own from γ = 0, with Δγ_Th = Δγ_in 10^-k. Without friction a
-balance does not depend on the path, and each bracket lies within the wider ones. With friction an
-affine step may open a contact that a shorter step would have kept. The spring of this contact is
+Every bracket is found by a run of its own from γ = 0, with Δγ_Th = Δγ_in 10^-k. Without friction an
+equilibrium does not depend on the path, and each bracket lies within the wider ones. With friction
+an affine step may open a contact that a shorter step would have kept. The spring of this contact is
 lost, and the event comes early, by less than the step. So a bracket may end below a narrower one.
 """
 
@@ -62,7 +62,7 @@ def bracket_first_event(
     Up to the step that contains the event all runs are the same, and are computed once.
 
     Raises:
-        ArithmeticError: the packing has no stable balance.
+        ArithmeticError: the packing has no stable equilibrium.
     """
     widest, *narrower = refined_steps(choices)
     found = [run_to_first_event(QuasistaticRun.from_packing(packing, interaction, widest))]

@@ -6,7 +6,7 @@ saved states, in a bracket no wider than Δγ_Th. After the event the steps retu
 Δγ_in. Strains are whole multiples of Δγ_Th, so that they are the same on every path.
 
 The smaller changes are recorded as well, each with the step in which it happens: contacts that open
-or close, and jumps, where the balance did not move on continuously (`strain_step`).
+or close, and jumps, where the equilibrium did not move on continuously (`strain_step`).
 
 | B      | name                          |
 | ------ | ----------------------------- |
@@ -38,7 +38,7 @@ class QuasistaticRun:
 
     `step_units` is the length of the next step in units of Δγ_Th. Once it has been shortened it
     stays short until the strain reaches `refine_until`, in the same units. `failure` says why the
-    last failed step did not find a balance.
+    last failed step did not find an equilibrium.
     """
 
     state: ShearedState
@@ -57,7 +57,7 @@ class QuasistaticRun:
         """A shear that starts at a packing in balance.
 
         Raises:
-            ArithmeticError: the packing has no stable balance.
+            ArithmeticError: the packing has no stable equilibrium.
         """
         equilibrium = first_equilibrium(packing, interaction, choices)
         units = round(packing.strain / choices.min_step)
@@ -91,7 +91,7 @@ class QuasistaticRun:
     def advance(self) -> bool:
         """Try one step: accept it, or shorten the next one. False if no step is possible.
 
-        A packing that has lost its rigidity has no stable balance, however short the step is.
+        A packing that has lost its rigidity has no stable equilibrium, however short the step is.
         """
         units = self._next_units()
         try:

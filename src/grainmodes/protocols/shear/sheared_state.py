@@ -1,4 +1,4 @@
-"""A force balance along a shear and what is measured on it: B (15)-(18), (42)-(51).
+"""An equilibrium state along a shear and what is measured on it: B (15)-(18), (42)-(51).
 
     σ_αβ(γ),   g_αβ = dσ_αβ/dγ by one solve with J,   the energy E that the contacts store
 
@@ -36,10 +36,10 @@ class CurvePoint(NamedTuple):
 
 @dataclass(frozen=True)
 class ShearedState:
-    """A balance at the strain of `strain_units` times Δγ_Th.
+    """An equilibrium state at the strain of `strain_units` times Δγ_Th.
 
     `loaded` selects the loading protocol of the rigidity. `jumped` says that the dynamics had to
-    find the balance. `response_guess` is the non-affine field dq̊/dγ of a state near this one,
+    find the equilibrium. `response_guess` is the non-affine field dq̊/dγ of a state near this one,
     (N', k) in d, from which the iteration for its own field starts.
     """
 

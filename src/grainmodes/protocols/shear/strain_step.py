@@ -1,15 +1,15 @@
-"""One step of athermal quasistatic shear: an affine strain, then relaxation to a new balance: B.
+"""One step of athermal quasistatic shear: an affine strain, then relaxation to equilibrium: B.
 
     r_i → r_i + Δγ (y_i, 0),   then J u = F̃ until max|F̃| < F_Th
 
 The affine strain leaves the tangential springs alone (`unloaded`, B), or stretches them as a
 continuous shear would (`loaded`): s → s + Δγ t·(r_y, 0), with t in the middle of the step.
 
-The balance to which a step leads is defined by B's damped dynamics, q̈ = M⁻¹F̃ − η q̇ from the
-affine state. Newton's method finds the same balance as long as the balance moves on continuously.
+The equilibrium to which a step leads is defined by B's damped dynamics, q̈ = M⁻¹F̃ − η q̇ from the
+affine state. Newton's method finds the same one as long as the equilibrium moves on continuously.
 It cannot decide
 
-- where it finds no balance, or a saddle of J;
+- where it finds no equilibrium, or a saddle of J;
 - where a contact opens that still bears a tangential force. A harmonic contact without slip bears
   k_T s at zero overlap and releases this force at once. It may close again with s = 0, and where it
   does depends on the path.
@@ -47,24 +47,24 @@ HANDOVER_REDUCTION = 0.1
 def first_equilibrium(
     packing: Packing, interaction: Interaction, choices: Shear
 ) -> EquilibriumState:
-    """The stable balance of a packing that is in balance already, or nearly.
+    """The stable equilibrium of a packing that is in balance already, or nearly.
 
     Raises:
-        ArithmeticError: there is no stable balance nearby.
+        ArithmeticError: there is no stable equilibrium nearby.
     """
     found = find_equilibrium(packing, interaction, choices.force_tolerance)
     if found is None or found.unstable:
-        raise ArithmeticError(f"no stable balance near the packing at strain {packing.strain}")
+        raise ArithmeticError(f"no stable equilibrium near the packing at strain {packing.strain}")
     return found
 
 
 def step_to(
     strain: float, before: EquilibriumState, choices: Shear
 ) -> tuple[EquilibriumState, bool]:
-    """The balance at another strain, and whether the dynamics had to find it.
+    """The equilibrium at another strain, and whether the dynamics had to find it.
 
     Raises:
-        ArithmeticError: no balance was found within `choices.max_steps` steps of the dynamics.
+        ArithmeticError: no equilibrium was found within `choices.max_steps` steps of the dynamics.
         PackingError: the box is too small to be sheared so far.
     """
     affine = strained_affinely(before, strain, choices.loaded)
@@ -79,7 +79,7 @@ def step_to(
 
 
 def strained_affinely(before: EquilibriumState, strain: float, loaded: bool) -> Packing:
-    """The packing of a balance at another strain, before it relaxes.
+    """The packing of an equilibrium at another strain, before it relaxes.
 
     If `loaded`, the affine motion also stretches the tangential springs.
 
@@ -103,7 +103,7 @@ def strained_affinely(before: EquilibriumState, strain: float, loaded: bool) -> 
 def _equilibrium_by_dynamics(
     packing: Packing, before: EquilibriumState, choices: Shear
 ) -> EquilibriumState:
-    """Dynamics into the basin of a balance, then Newton's method to the balance.
+    """Dynamics into the basin of an equilibrium, then Newton's method to its bottom.
 
     Where Newton's method fails, the dynamics goes on to ever smaller forces, in the end to F_Th.
     Damped relaxation, as B does it, goes to F_Th at once.
@@ -125,7 +125,7 @@ def _equilibrium_by_dynamics(
         packing, steps_left = relaxed.packing, steps_left - relaxed.iterations
         tolerance = max(HANDOVER_REDUCTION * tolerance, target)
     raise ArithmeticError(
-        f"strain {packing.strain}: no stable balance, max|F| = {relaxed.max_force:.1e} after "
+        f"strain {packing.strain}: no stable equilibrium, max|F| = {relaxed.max_force:.1e} after "
         f"{choices.max_steps - steps_left + relaxed.iterations} steps of the dynamics"
     )
 

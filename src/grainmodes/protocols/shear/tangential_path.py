@@ -48,7 +48,7 @@ class PathError(NamedTuple):
 
 
 class TangentialPath:
-    """V of every contact along a shear, (C, 2) in d; it starts as s t of the first balance."""
+    """V of every contact along a shear, (C, 2) in d; it starts as s t of the first equilibrium."""
 
     def __init__(self, equilibrium: EquilibriumState):
         contacts = equilibrium.contacts
