@@ -31,7 +31,7 @@ NAMES = {
         BLOCK,
         "i1",
         NUMBER,
-        "how the spectrum was computed: 0 no modes, 1 dense, 2 windows, 3 counting",
+        "how the spectrum was computed: 0 no modes, 1 dense, 2 spectrum slicing, 3 inertia counts",
     ),
     "factorisation": Variable(
         BLOCK, "i1", NUMBER, "sparse factorisation of the spectrum: 0 none, 1 superlu, 2 pardiso"
