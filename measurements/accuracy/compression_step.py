@@ -40,8 +40,8 @@ from grainmodes.protocols.compression.trajectory import (
     place_at_random,
 )
 from grainmodes.response.moduli import rigidity
+from grainmodes.stages.packing_rows import packing_row
 from grainmodes.stages.rows import SAMPLE_ERRORS
-from grainmodes.stages.samples import packed
 from measurements.accuracy.diagram import (
     Diagram,
     DiagramRow,
@@ -91,7 +91,7 @@ def _sample(n: int, seed: int, protocol: Compression) -> tuple[float, float, flo
         g = rigidity(packing, INTERACTION).unloaded.g
     except SAMPLE_ERRORS:
         return (np.nan,) * 4
-    row = packed(packing, HERTZ)
+    row = packing_row(packing, HERTZ)
     return grid.phi_jamming, row["pressure"], row["contact_number"], g
 
 

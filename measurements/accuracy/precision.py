@@ -34,7 +34,7 @@ from grainmodes.packing.state import Packing, find_contacts
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import forward_rigidity
 from grainmodes.response.moduli import rigidity
-from grainmodes.stages.samples import is_jammed
+from grainmodes.stages.packing_rows import is_jammed
 from measurements.accuracy.diagram import (
     Diagram,
     DiagramRow,

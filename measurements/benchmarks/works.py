@@ -21,8 +21,8 @@ from grainmodes.dataset.files import read_block, write_block
 from grainmodes.parameters.grid import checkpoints_up_to
 from grainmodes.protocols.compression.trajectory import compress_along_grid, place_at_random
 from grainmodes.relaxation.frictionless import relax_fire_newton
-from grainmodes.stages.rows import block_of
-from grainmodes.stages.samples import packed
+from grainmodes.stages.packing_rows import packing_row
+from grainmodes.stages.rows import compute_block
 from measurements.benchmarks import cases
 from measurements.benchmarks.cases import HERTZ, PROTOCOL
 
@@ -168,6 +168,6 @@ def _packings(n: int, folder: Path, harmonic: bool) -> Path:
         packing = cases.harmonic_at(n, PHI) if harmonic else cases.balanced_at(n, PHI)
         normal = cases.HARMONIC.normal if harmonic else HERTZ
         point = {"stage": "packings", "n": n, "phi": PHI}
-        row = packed(packing, normal) | {"converged": True}
-        write_block(path, block_of([0], lambda _: row, {}, point))
+        row = packing_row(packing, normal) | {"converged": True}
+        write_block(path, compute_block([0], lambda _: row, {}, point))
     return path

@@ -29,10 +29,10 @@ from grainmodes.stages.compression import compress_block, packing_block
 from grainmodes.stages.event_detail import event_detail_block
 from grainmodes.stages.fields import fields_block
 from grainmodes.stages.law_comparison import law_comparison_block
+from grainmodes.stages.packing_rows import packing_row
 from grainmodes.stages.release import release_block
 from grainmodes.stages.rigidity import rigidity_block
-from grainmodes.stages.rows import block_of
-from grainmodes.stages.samples import packed
+from grainmodes.stages.rows import compute_block
 from grainmodes.stages.shear import shear_block
 from grainmodes.stages.spectrum import hessian_block, rattlers_block, spectrum_block
 from grainmodes.stages.step_strain import step_strain_block
@@ -47,8 +47,10 @@ MODES = SpectrumChoices()
 
 @cache
 def packings() -> Block:
-    rows = [packed(reference(MINIMAL[0])[1], Hertz(1.0)) | {"converged": True} for _ in range(2)]
-    return block_of(range(2), rows.__getitem__, {}, {"n": 16, "phi": 0.9, "stage": "packings"})
+    rows = [
+        packing_row(reference(MINIMAL[0])[1], Hertz(1.0)) | {"converged": True} for _ in range(2)
+    ]
+    return compute_block(range(2), rows.__getitem__, {}, {"n": 16, "phi": 0.9, "stage": "packings"})
 
 
 @cache

@@ -21,8 +21,8 @@ from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.equilibrium_search import find_equilibrium
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.relaxation.newton import newton
-from grainmodes.stages.rows import block_of
-from grainmodes.stages.samples import packed
+from grainmodes.stages.packing_rows import packing_row
+from grainmodes.stages.rows import compute_block
 from grainmodes.stages.step_strain import step_strain_block
 
 FRICTION = Interaction.from_law(ContactLaw("harmonic", "elastic", 1.0))
@@ -112,8 +112,10 @@ def test_a_time_step_far_too_long_is_refused(time_step):
 
 
 def test_a_sample_whose_dynamics_breaks_down_is_a_failed_row():
-    rows = [packed(reference(name)[1], Hertz(1.0)) | {"converged": True} for name in MINIMAL[:1]]
-    packings = block_of(range(1), rows.__getitem__, {}, {"n": 16, "phi": 0.9})
+    rows = [
+        packing_row(reference(name)[1], Hertz(1.0)) | {"converged": True} for name in MINIMAL[:1]
+    ]
+    packings = compute_block(range(1), rows.__getitem__, {}, {"n": 16, "phi": 0.9})
     step = StepStrain(relaxation="damped", time_step=1.0)
     found = step_strain_block(packings, ContactLaw(kt=1.0), step)
     assert found.variables["converged"].tolist() == [0]

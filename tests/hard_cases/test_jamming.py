@@ -17,9 +17,9 @@ from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation.frictionless import relax_fire_large_steps, relax_fire_newton
 from grainmodes.response.moduli import rigidity
+from grainmodes.stages.packing_rows import is_jammed, packing_row
 from grainmodes.stages.rigidity import rigidity_block
-from grainmodes.stages.rows import block_of
-from grainmodes.stages.samples import is_jammed, packed
+from grainmodes.stages.rows import compute_block
 
 FREE = Interaction.from_law(ContactLaw())
 LAW = ContactLaw(kt=1e-2)
@@ -101,5 +101,5 @@ def test_below_jamming_nothing_touches(around):
 
 
 def as_block(packings: list[Packing]):
-    rows = [packed(packing, Hertz(1.0)) | {"converged": True} for packing in packings]
-    return block_of(range(len(rows)), rows.__getitem__, {}, {"n": packings[0].n, "phi": 0.833})
+    rows = [packing_row(packing, Hertz(1.0)) | {"converged": True} for packing in packings]
+    return compute_block(range(len(rows)), rows.__getitem__, {}, {"n": packings[0].n, "phi": 0.833})

@@ -18,7 +18,7 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.release import Release
 from grainmodes.protocols.release.release_run import ReleaseRun
 from grainmodes.protocols.release.unstable_state import UnstableState
-from grainmodes.stages.rows import block_of
+from grainmodes.stages.rows import compute_block
 
 SHORT = Release(duration=18.0, min_time=0.0, n_records=600, spectra=0)
 """Ten e-folds of the fastest pair from its start on; it ends before contacts change."""
@@ -76,6 +76,6 @@ def complex_pairs_block() -> Block:
         **{name: getattr(packing, name) for name in ("diameter", "mass", "box_length")},
     }
     point = {"n": packing.n, "phi": round(packing.phi, 12), "kt": law.kt, "stage": "complex_pairs"}
-    return block_of(
+    return compute_block(
         range(2), [row, {"converged": True, "unstable_found": 0}].__getitem__, {}, point
     )

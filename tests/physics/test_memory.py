@@ -15,8 +15,8 @@ from grainmodes.kernels.laws import Hertz
 from grainmodes.parameters.compression import Compression
 from grainmodes.protocols.compression.trajectory import Trajectory, place_at_random
 from grainmodes.relaxation.frictionless import relax_fire_large_steps
-from grainmodes.stages.rows import block_of, described
-from grainmodes.stages.samples import checkpoint
+from grainmodes.stages.rows import compute_block, stage_attributes
+from grainmodes.stages.trajectory_rows import trajectory_row
 
 N, PHI = 65536, 0.9
 LIMIT = 2000.0
@@ -37,10 +37,12 @@ def start(tmp_path_factory) -> Path:
     first = place_at_random(N, 0, law, protocol).packing.at(PHI)
     loose = relax_fire_large_steps(first, law, 0.0, protocol.intermediate_balance, 20_000)
     steps = round((PHI - protocol.initial_phi) / protocol.phi_step)
-    row = checkpoint(Trajectory(loose.packing, steps, 0.84, loose.iterations))
+    row = trajectory_row(Trajectory(loose.packing, steps, 0.84, loose.iterations))
     config = {"compression": asdict(protocol), "normal": "hertz"}
     path = tmp_path_factory.mktemp("large") / "checkpoint.nc"
-    block = block_of([0], lambda _: row, {}, described("trajectories", config, n=N, phi=PHI))
+    block = compute_block(
+        [0], lambda _: row, {}, stage_attributes("trajectories", config, n=N, phi=PHI)
+    )
     write_block(path, block)
     return path
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import asdict
 
 from grainmodes.dataset.files import Block
-from grainmodes.kernels.laws import Interaction
+from grainmodes.kernels.laws import Interaction, NormalLaw
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.protocols.compression.trajectory import (
@@ -19,13 +19,13 @@ from grainmodes.protocols.compression.trajectory import (
     compress_to,
     place_at_random,
 )
-from grainmodes.stages.rows import block_of, described
-from grainmodes.stages.samples import (
-    check_same,
+from grainmodes.stages.packing_rows import packing_row
+from grainmodes.stages.rows import compute_block, stage_attributes
+from grainmodes.stages.trajectory_rows import (
+    check_samples,
     check_start,
-    checkpoint,
-    packed,
-    trajectory_of,
+    trajectory_in_row,
+    trajectory_row,
 )
 
 
@@ -38,48 +38,49 @@ def compress_block(
     start: Block | None,
 ) -> Block:
     """Trajectories at the checkpoint φ, from random placement or from the checkpoint `start`."""
-    law = _normal(normal)
+    normal_law = _normal_law(normal)
     config = {"compression": asdict(compression), "normal": normal}
     if start is not None:
         check_start(start, config, phi)
-        check_same(start, n, seeds)
+        check_samples(start, n, seeds)
 
     def sample(number: int) -> dict[str, object]:
         before = (
-            place_at_random(n, seeds[number], law, compression)
+            place_at_random(n, seeds[number], normal_law, compression)
             if start is None
-            else trajectory_of(start, number)
+            else trajectory_in_row(start, number)
         )
-        return checkpoint(compress_along_grid(before, phi, law, compression))
+        return trajectory_row(compress_along_grid(before, phi, normal_law, compression))
 
-    attributes = described("trajectories", config, n=n, phi=phi)
+    attributes = stage_attributes("trajectories", config, n=n, phi=phi)
     failures = {} if start is None else start.mapping("failures")
-    return block_of(seeds, sample, failures, attributes)
+    return compute_block(seeds, sample, failures, attributes)
 
 
 def packing_block(start: Block, phi: float, compression: Compression, normal: str) -> Block:
     """Packings at φ in their final balance, each on a branch from its checkpoint."""
-    law = _normal(normal)
+    normal_law = _normal_law(normal)
     config = {"compression": asdict(compression), "normal": normal}
     check_start(start, config, phi)
 
     def sample(number: int) -> dict[str, object]:
-        grid = compress_along_grid(trajectory_of(start, number), phi, law, compression)
-        relaxed = compress_to(grid, phi, law, compression)
+        grid = compress_along_grid(trajectory_in_row(start, number), phi, normal_law, compression)
+        relaxed = compress_to(grid, phi, normal_law, compression)
         if not relaxed.converged:
             raise ArithmeticError(
                 f"max|F| = {relaxed.max_force:.1e} after {relaxed.iterations} iterations"
             )
-        return packed(relaxed.packing, law) | {
+        return packing_row(relaxed.packing, normal_law) | {
             "phi_jamming": grid.phi_jamming,
             "converged": True,
             "iterations": relaxed.iterations,
         }
 
-    attributes = described("packings", config, n=int(start.attributes["n"]), phi=phi)
+    attributes = stage_attributes("packings", config, n=int(start.attributes["n"]), phi=phi)
     failures = start.mapping("failures")
-    return block_of(start.variables["seed"], sample, failures, attributes)
+    return compute_block(start.variables["seed"], sample, failures, attributes)
 
 
-def _normal(name: str):
+def _normal_law(name: str) -> NormalLaw:
+    """The compiled normal law of a name."""
     return Interaction.from_law(ContactLaw(normal=name)).normal

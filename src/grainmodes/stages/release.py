@@ -12,7 +12,6 @@ import numpy as np
 
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing.contacts import History
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.release import Release
@@ -20,6 +19,7 @@ from grainmodes.protocols.release.release_run import ReleaseRun
 from grainmodes.protocols.release.unstable_state import UnstableState
 from grainmodes.response.stability import REAL
 from grainmodes.stages.long_runs import CheckpointStore, run_to_end
+from grainmodes.stages.packing_rows import history_in_row
 from grainmodes.stages.release_rows import runs_row
 from grainmodes.stages.rows import response_block
 from grainmodes.stages.samples import seed_of
@@ -65,8 +65,6 @@ def unstable_state(block: Block, number: int) -> UnstableState:
         PackingError: a stored value is NaN or infinite.
     """
     row = {name: array[number] for name, array in block.variables.items()}
-    held = row["unstable_contact_i"] >= 0
-    names = ("unstable_contact_i", "unstable_contact_j", "unstable_spring_state")
     packing = Packing(
         np.ascontiguousarray(row["unstable_fraction"].T),
         row["diameter"],
@@ -74,7 +72,7 @@ def unstable_state(block: Block, number: int) -> UnstableState:
         float(row["box_length"]),
         float(row["unstable_strain"]),
         row["unstable_rotation"],
-        History.of(*(row[name][held] for name in names)),
+        history_in_row(row, "unstable_"),
     )
     value = complex(row["unstable_eigenvalue_real"], row["unstable_eigenvalue_imag"])
     mode = row["unstable_mode_real"] + 1j * row["unstable_mode_imag"]

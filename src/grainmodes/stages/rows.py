@@ -1,4 +1,4 @@
-"""Samples as rows of a block: a failed one is a row without numbers, not the end of its block."""
+"""Samples as rows of a block: a sample that fails is a row without numbers; the others go on."""
 
 from __future__ import annotations
 
@@ -13,26 +13,27 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.runtime.provenance import code_version
 
 SAMPLE_ERRORS = (ArithmeticError, ValueError, np.linalg.LinAlgError, MemoryError)
-"""What a sample may run into; anything else is a mistake in the code and stops the job."""
+"""Errors of a single sample; any other error is a mistake in the code and stops the job."""
 
 FILL = {"f8": np.nan, "i8": 0, "i4": -1, "i1": 0}
-"""Value of a number that does not exist, by type."""
+"""Value that stands for a number that does not exist, by its type."""
 
 
-def block_of(
+def compute_block(
     seeds: Iterable[int],
     sample: Callable[[int], dict[str, object]],
     known_failures: dict[str, str],
     attributes: dict[str, object],
 ) -> Block:
-    """Compute a row for every seed and stack them.
+    """Compute a row for every seed, and stack the rows.
 
     Args:
         seeds: one row each, in this order.
-        sample: row number → values by name; raises one of `SAMPLE_ERRORS` where it fails, or adds
-            why under "failure" where it has values all the same.
+        sample: takes the number of a row and returns its values by name. It raises one of
+            `SAMPLE_ERRORS` where it fails; where it fails but has values, it returns them with the
+            reason under "failure".
         known_failures: seed → sentence of samples that failed in an earlier stage.
-        attributes: what to write beside the code version and the failures.
+        attributes: attributes of the block besides the code version and the failures.
     """
     seeds, failures, rows = list(seeds), dict(known_failures), []
     for number, seed in enumerate(seeds):
@@ -46,30 +47,44 @@ def block_of(
             failures[str(seed)] = row.pop("failure")
         rows.append(row)
     variables = {"seed": np.array(seeds)} | _stacked(rows)
-    described = {"code_version": code_version(), "failures": failures}
-    return Block(variables, attributes | described)
+    made_by = {"code_version": code_version(), "failures": failures}
+    return Block(variables, attributes | made_by)
 
 
-def response_block(packings: Block, stage: str, config: dict, law: ContactLaw, sample) -> Block:
-    """The block of an observable of `packings`, which carries their parameters along."""
+def response_block(
+    packings: Block,
+    stage: str,
+    config: dict,
+    law: ContactLaw,
+    sample: Callable[[int], dict[str, object]],
+) -> Block:
+    """The block of an observable of `packings`, with the parameters of the packings.
+
+    Args:
+        config: the parameters of the stage.
+        sample: as in `compute_block`.
+
+    Raises:
+        BlockError: the packings have no attribute n or phi.
+    """
     absent = [name for name in ("n", "phi") if name not in packings.attributes]
     if absent:
         raise BlockError(
             f"the packings: expected the attributes n and phi, got no {' and no '.join(absent)}"
         )
     point = {name: packings.attributes[name] for name in ("n", "phi")} | {"kt": law.kt}
-    attributes = described(stage, packings.mapping("config") | config, **point)
+    attributes = stage_attributes(stage, packings.mapping("config") | config, **point)
     failures = packings.mapping("failures")
-    return block_of(packings.variables["seed"], sample, failures, attributes)
+    return compute_block(packings.variables["seed"], sample, failures, attributes)
 
 
-def described(stage: str, config: dict, **point: float) -> dict[str, object]:
+def stage_attributes(stage: str, config: dict, **point: float) -> dict[str, object]:
     """The attributes of a block of a stage."""
     return {"title": f"grainmodes: {stage}", "stage": stage, "config": config} | point
 
 
 def _stacked(rows: list[dict[str, object]]) -> dict[str, np.ndarray]:
-    """Arrays over all rows; shorter rows, and rows without the name, are filled up."""
+    """Arrays over all rows; shorter rows, and rows without a name, are filled up."""
     names = list(dict.fromkeys(name for row in rows for name in row)) or ["converged"]
     dtypes = {name: VARIABLES[name].dtype for name in names}
     return {

@@ -24,8 +24,8 @@ from grainmodes.response.fields import affine_field, mode_sum_field, nearest_mod
 from grainmodes.spectrum import full, packing_spectrum
 from grainmodes.stages import fields
 from grainmodes.stages.fields import fields_block
-from grainmodes.stages.rows import block_of
-from grainmodes.stages.samples import packed
+from grainmodes.stages.packing_rows import packing_row
+from grainmodes.stages.rows import compute_block
 
 KTS = (0.0, 1e-8, 1e-4, 1e-2, 1.0, 10.0)
 HERTZ = "hertz_n64_phi0.860_seed2"
@@ -195,9 +195,10 @@ def packings(*members: Packing, failures=None):
     """A block of packings."""
     attributes = {"stage": "packings", "n": members[0].n, "phi": 0.9, "config": {}}
     rows = [
-        packed(member, Interaction.from_law(LAW).normal) | {"converged": True} for member in members
+        packing_row(member, Interaction.from_law(LAW).normal) | {"converged": True}
+        for member in members
     ]
-    return block_of(range(len(members)), rows.__getitem__, failures or {}, attributes)
+    return compute_block(range(len(members)), rows.__getitem__, failures or {}, attributes)
 
 
 def test_a_block_holds_the_fields_of_its_first_sample():

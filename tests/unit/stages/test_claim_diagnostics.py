@@ -26,8 +26,8 @@ from grainmodes.response.moduli import rigidity
 from grainmodes.response.stability import complex_pairs
 from grainmodes.spectrum import packing_spectrum
 from grainmodes.stages import claim_diagnostics
-from grainmodes.stages.rows import block_of
-from grainmodes.stages.samples import packed
+from grainmodes.stages.packing_rows import packing_row
+from grainmodes.stages.rows import compute_block
 
 SMALL, HERTZ = "hertz_n16_phi0.900_seed1", "hertz_n64_phi0.900_seed1"
 KT = 1.0
@@ -35,9 +35,9 @@ KT = 1.0
 
 def block(*packed_packings: Packing) -> Block:
     """Hertzian packings as a block, like one of stage `packings`."""
-    rows = [packed(p, Hertz(1.0)) | {"converged": True} for p in packed_packings]
+    rows = [packing_row(p, Hertz(1.0)) | {"converged": True} for p in packed_packings]
     point = {"n": packed_packings[0].n, "phi": packed_packings[0].phi}
-    return block_of(range(len(rows)), rows.__getitem__, {}, point | {"stage": "packings"})
+    return compute_block(range(len(rows)), rows.__getitem__, {}, point | {"stage": "packings"})
 
 
 def row(packing: Packing, kt: float, step: StepStrain | None = None) -> Block:

@@ -19,8 +19,8 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, NEVER
 from grainmodes.stages.complex_pairs import complex_pairs_block
-from grainmodes.stages.rows import block_of
-from grainmodes.stages.samples import packed
+from grainmodes.stages.packing_rows import packing_row
+from grainmodes.stages.rows import compute_block
 
 LAW = ContactLaw("hertz", "smoothed_coulomb", 2 / 7, 10.0)
 SHEAR = Shear(strain=0.01, step=2e-4, force_tolerance=5e-14)
@@ -29,9 +29,9 @@ ASKED = PairChoices(max_located=2, track_beyond=5, jacobian=True)
 
 def packings(*some: Packing) -> Block:
     """Hertzian packings as a block of stage `packings`."""
-    rows = [packed(p, Hertz(1.0)) | {"converged": True} for p in some]
+    rows = [packing_row(p, Hertz(1.0)) | {"converged": True} for p in some]
     point = {"n": some[0].n, "phi": some[0].phi, "stage": "packings"}
-    return block_of(range(len(rows)), rows.__getitem__, {}, point)
+    return compute_block(range(len(rows)), rows.__getitem__, {}, point)
 
 
 @pytest.fixture(scope="module")

@@ -11,16 +11,16 @@ from grainmodes.kernels.laws import Harmonic
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.stages.event_detail import event_detail_block
-from grainmodes.stages.rows import block_of
-from grainmodes.stages.samples import packed
+from grainmodes.stages.packing_rows import packing_row
+from grainmodes.stages.rows import compute_block
 
 
 @cache
 def block(law: ContactLaw, strain: float = 0.012) -> Block:
     """The stage on a block of two packings."""
-    row = packed(packing_for(law), Harmonic(1.0)) | {"converged": True}
+    row = packing_row(packing_for(law), Harmonic(1.0)) | {"converged": True}
     attributes = {"stage": "packings", "n": 64, "phi": 0.86}
-    packings = block_of((2, 5), lambda _: row, {}, attributes)
+    packings = compute_block((2, 5), lambda _: row, {}, attributes)
     return event_detail_block(packings, law, Shear(strain))
 
 

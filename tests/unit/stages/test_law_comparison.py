@@ -10,7 +10,7 @@ from grainmodes.parameters.law import TANGENTIAL_LAWS, ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.law_comparison.comparison import Seen, Variant
 from grainmodes.stages import law_comparison
-from grainmodes.stages.samples import packed
+from grainmodes.stages.packing_rows import packing_row
 
 C8 = ContactLaw("harmonic", "smoothed_coulomb", 0.3, 0.5)
 BRIEF = Shear(strain=2e-3, step=1e-4)
@@ -19,7 +19,7 @@ BRIEF = Shear(strain=2e-3, step=1e-4)
 def block_of(name: str) -> Block:
     """A block of one packing."""
     packing = reference(name)[1]
-    row = packed(packing, Interaction.from_law(C8).normal) | {"converged": 1, "seed": 0}
+    row = packing_row(packing, Interaction.from_law(C8).normal) | {"converged": 1, "seed": 0}
     variables = {key: np.asarray(value)[None] for key, value in row.items()}
     return Block(variables, {"n": packing.n, "phi": 0.9})
 

@@ -23,8 +23,8 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.stages.checkpoints import CheckpointFiles, fingerprint
-from grainmodes.stages.rows import block_of
-from grainmodes.stages.samples import packed
+from grainmodes.stages.packing_rows import packing_row
+from grainmodes.stages.rows import compute_block
 from grainmodes.stages.shear import shear_block
 
 LAW = ContactLaw("harmonic", "elastic", 1.0)
@@ -39,9 +39,9 @@ SETTINGS = {
 
 def packings(*some: Packing) -> Block:
     """Harmonic packings as a block of stage `packings`."""
-    rows = [packed(p, Harmonic(1.0)) | {"converged": True} for p in some]
+    rows = [packing_row(p, Harmonic(1.0)) | {"converged": True} for p in some]
     point = {"n": some[0].n, "phi": some[0].phi, "stage": "packings"}
-    return block_of(range(len(rows)), rows.__getitem__, {}, point)
+    return compute_block(range(len(rows)), rows.__getitem__, {}, point)
 
 
 @pytest.fixture(scope="module")
