@@ -14,6 +14,7 @@ from grainmodes.dataset.units import (
     NUMBER,
     RATE,
     SQUARED_ANGLE,
+    SQUARED_RATE,
     TIME,
     Unit,
 )
@@ -122,7 +123,7 @@ NAMES = {
     "release_spectrum_pairs": Variable(SPECTRUM, "i8", NUMBER, "its complex pairs"),
     "release_spectrum_negative": Variable(SPECTRUM, "i8", NUMBER, "its real eigenvalues below 0"),
     "release_spectrum_imaginary": Variable(
-        (*SPECTRUM, "pair"), "f8", MODULUS, "imaginary parts of its pairs, the largest first"
+        (*SPECTRUM, "pair"), "f8", SQUARED_RATE, "imaginary parts of its pairs, the largest first"
     ),
     **_sides("release_contacts", GRAIN, "i8", NUMBER, "contacts of a grain"),
     **_sides("release_grain_pressure", GRAIN, "f8", MODULUS, "P_i of a grain"),
