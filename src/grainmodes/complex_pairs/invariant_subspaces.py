@@ -78,7 +78,8 @@ def block_eigenvectors(block: np.ndarray, values: np.ndarray) -> np.ndarray:
     Where B = λ both columns are zero and the first unit vector is taken.
     """
     (a, b), (c, d) = np.moveaxis(block, 0, -1)
-    columns = np.array([[values - d, c + 0j], [b + 0j, values - a]])
+    zero = np.zeros_like(values)  # real vectors of real values
+    columns = np.array([[values - d, c + zero], [b + zero, values - a]])
     lengths = np.linalg.norm(columns, axis=1)
     longest, each = lengths.argmax(axis=0), np.arange(len(values))
     vectors, length = columns[longest, :, each], lengths[longest, each][:, None]
