@@ -1,7 +1,10 @@
 # Work-precision diagrams: what each numerical choice costs in CPU time, and the error it leaves.
 
 DIAGRAM = "results/accuracy/{size}/{name}"
-SHARED = ("diagram", "growth", "kernel_polynomial", "loops", "packings", "sharpened", "table")
+SHARED = (
+    *("diagram", "growth_rate", "kernel_polynomial", "loops", "packings"),
+    *("refined_modes", "table"),
+)
 
 
 wildcard_constraints:
@@ -26,7 +29,7 @@ rule measure_accuracy:
     output:
         f"{DIAGRAM}.csv",
     message:
-        "Measure what {wildcards.name} costs and buys, {wildcards.size}."
+        "Measure cost and error of {wildcards.name}, {wildcards.size}."
     shell:
         "python -m measurements.accuracy.measure {wildcards.name} --size {wildcards.size} -o {output}"
 

@@ -63,7 +63,10 @@ def as_written(paths):
 def sources_of_accuracy(*modules):
     """Files whose edit changes what modules of `measurements/accuracy` do."""
     return as_written(
-        script_sources(*(Path(f"measurements/accuracy/{name}.py") for name in modules))
+        script_sources(
+            Path("measurements/machine.py"),
+            *(Path(f"measurements/accuracy/{name}.py") for name in modules),
+        )
     )
 
 
