@@ -25,8 +25,7 @@ import numpy as np
 import scipy.linalg
 
 from grainmodes.kernels.laws import Frictionless, Interaction
-from grainmodes.packing.contacts import rattlers
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing, rattlers
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.frictionless import relax_fire, relax_fire_newton
@@ -93,18 +92,18 @@ def find_response(packing: Packing) -> Response:
     return Response(g, np.sort(values[:N_EIGENVALUES]), backbone_contacts(packing))
 
 
-def backbone_contacts(packing: Packing) -> set[tuple[int, int]]:
-    """The contacts between grains that are not rattlers, numbered as among all grains."""
-    contacts = find_contacts(packing)
-    gone = rattlers(contacts, packing.n, threshold=2)
-    held = ~(gone[contacts.i] | gone[contacts.j])
-    return set(zip(contacts.i[held].tolist(), contacts.j[held].tolist(), strict=True))
+def backbone_contacts(packing: Packing) -> set[int]:
+    """The keys of the contacts between grains that are not rattlers, in the numbers of all."""
+    contacts = packing.contacts
+    is_rattler = rattlers(packing, threshold=2)
+    between = ~(is_rattler[contacts.i] | is_rattler[contacts.j])
+    return set(contacts.key[between].tolist())
 
 
 def reference(relax: Callable, packing: Packing) -> Response:
     """The response of the balance that a relaxation leads to."""
     balance = relax(packing, HERTZ, DEFAULT.force_tolerance, MAX_ITERATIONS).packing
-    gone = rattlers(find_contacts(balance), balance.n, threshold=2)
+    gone = rattlers(balance, threshold=2)
     interaction = Interaction(HERTZ, Frictionless())
     fraction = balance.fraction.copy()
     solved = newton(balance.without(gone), interaction, 0.0, MAX_NEWTON_STEPS)

@@ -22,7 +22,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.neighbours import FRACTION_UNIT, find_neighbours
 from grainmodes.kernels.repulsion import mean_force_and_stiffness
 from grainmodes.packing.contacts import History
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.frictionless import SKIN, STABILITY_FRACTION
 from measurements.accuracy.packings import HERTZ
@@ -101,7 +101,7 @@ def after_fire(packing: Packing, precision: Precision, steps: int) -> tuple[Pack
 
 def exact_forces(packing: Packing) -> np.ndarray:
     """Hertzian net forces in extended precision, (N, 2)."""
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     scale = np.longdouble(packing.box_length) * np.longdouble(FRACTION_UNIT)
     branch = (packing.fraction[:, contacts.i] - packing.fraction[:, contacts.j]) * scale
     distance = np.sqrt((branch**2).sum(axis=0))

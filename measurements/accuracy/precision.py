@@ -30,7 +30,7 @@ import numpy as np
 
 from grainmodes.kernels.laws import Frictionless, Interaction
 from grainmodes.packing.forces import largest, mean_contact_force, net_force, stress
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import forward_rigidity
 from grainmodes.response.moduli import rigidity
@@ -77,7 +77,7 @@ def fire_errors(packing: Packing, precision: Precision) -> Errors:
     beside = packing.displaced(
         START_DISPLACEMENT * np.random.default_rng(0).standard_normal((packing.n, 2))
     )
-    unit = mean_contact_force(find_contacts(packing), SMOOTH)
+    unit = mean_contact_force(packing, SMOOTH)
     _, seen = after_fire(beside, precision, 0)
     wrong = np.sqrt(np.mean((seen - exact_forces(beside)) ** 2))
     (after, _), seconds = timed(after_fire, beside, precision, N_STEPS)
@@ -87,10 +87,10 @@ def fire_errors(packing: Packing, precision: Precision) -> Errors:
 
 def dynamics_errors(packing: Packing, precision: Precision) -> Errors:
     """Errors of damped dynamics after a step strain, as A simulates g."""
-    unit = mean_contact_force(find_contacts(packing), SMOOTH)
+    unit = mean_contact_force(packing, SMOOTH)
     after, seconds = timed(after_dynamics, packing.sheared(STRAIN), precision.force, N_STEPS)
     exact = forward_rigidity(packing, ROUGH, StepStrain(strain=STRAIN))
-    before, strained = (stress(p, find_contacts(p), ROUGH)[0, 1] for p in (packing, after))
+    before, strained = (stress(p, ROUGH)[0, 1] for p in (packing, after))
     found = (strained - before) / STRAIN
     return _errors(seconds, math.nan, residual(after, ROUGH) / unit, found / exact, packing.n)
 
@@ -101,7 +101,7 @@ def _errors(seconds: float, forces: float, floor: float, ratio: float, n: int) -
 
 def residual(packing: Packing, interaction: Interaction) -> float:
     """max|F̃| in double precision."""
-    return max(largest(net_force(packing, find_contacts(packing), interaction)))
+    return max(largest(net_force(packing, interaction)))
 
 
 SINGLE, DOUBLE = Precision(np.float32, np.float32), Precision(np.float64, np.float64)
@@ -153,8 +153,7 @@ def errors_of_packings(name: str, precision: Precision, n: int, seeds: int) -> l
 
 def jammed(packing: Packing) -> bool:
     """Whether a rigid backbone carries the load."""
-    contacts = find_contacts(packing)
-    return is_jammed(packing, contacts, SMOOTH, residual(packing, SMOOTH))
+    return is_jammed(packing, SMOOTH, residual(packing, SMOOTH))
 
 
 DIAGRAM = Diagram(

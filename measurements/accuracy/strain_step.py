@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import stress
-from grainmodes.packing.state import Packing, backbone, find_contacts
+from grainmodes.packing.state import Packing, backbone
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import forward_rigidity, relaxed_steps, step_strain
@@ -63,7 +63,7 @@ def both_sides(packing: Packing, protocol: StepStrain) -> float:
     steps = relaxed_steps(backbone(packing, 2), INTERACTION, protocol)
     if not all(step.converged for step in steps):
         raise ArithmeticError(f"max|F| = {max(step.max_force for step in steps):.1e}")
-    after, before = (stress(s.packing, find_contacts(s.packing), INTERACTION)[0, 1] for s in steps)
+    after, before = (stress(s.packing, INTERACTION)[0, 1] for s in steps)
     return float(after - before) / (2.0 * protocol.strain)
 
 

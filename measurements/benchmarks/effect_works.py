@@ -19,7 +19,7 @@ from grainmodes.kernels.fire import FireSettings, fire
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import net_force
 from grainmodes.packing.jacobian import jacobian
-from grainmodes.packing.state import Packing, backbone, find_contacts
+from grainmodes.packing.state import Packing, backbone
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
@@ -102,15 +102,15 @@ def dynamics_steps(law: ContactLaw, damping, n: int) -> Work:
 def forces(state, law: ContactLaw, n: int) -> Work:
     """Net forces from the contacts."""
     packing, interaction = state(n), Interaction.from_law(law)
-    contacts = find_contacts(packing)
-    return lambda: net_force(packing, contacts, interaction)
+    _ = packing.contacts
+    return lambda: net_force(packing, interaction)
 
 
 def assembly(state, law: ContactLaw, n: int) -> Work:
     """J from the contacts."""
     packing, interaction = state(n), Interaction.from_law(law)
-    contacts = find_contacts(packing)
-    return lambda: jacobian(packing, contacts, interaction)
+    _ = packing.contacts
+    return lambda: jacobian(packing, interaction)
 
 
 def moduli(state, law: ContactLaw, n: int) -> Work:

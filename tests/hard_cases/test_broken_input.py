@@ -16,7 +16,6 @@ from example_packings import MINIMAL, elastic, reference
 from grainmodes.dataset.files import Block, BlockError, read_block
 from grainmodes.kernels.laws import Hertz
 from grainmodes.packing.forces import largest, net_force
-from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw, Rattlers
@@ -160,9 +159,9 @@ def test_numbers_that_a_stage_does_not_need_may_be_none(stage):
 def test_a_packing_without_a_number_looks_unjammed(name):
     """Nothing compares with NaN: no contact, no force, max|F| = 0 < F_Th, and so g = 0."""
     packing = replace(reference(MINIMAL[0])[1], **{name: np.nan})
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     assert len(contacts.i) == 0
-    assert largest(net_force(packing, contacts, elastic("hertz", 1.0))) == (0.0, 0.0)
+    assert largest(net_force(packing, elastic("hertz", 1.0))) == (0.0, 0.0)
     with pytest.raises(ValueError, match=f"{name}: expected a finite number, got nan"):
         packing.checked()
 

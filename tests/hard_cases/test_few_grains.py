@@ -10,7 +10,7 @@ import naive_failures
 from example_packings import elastic, pairs_of, quenched
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Hertz
-from grainmodes.packing.state import Packing, PackingError, find_contacts
+from grainmodes.packing.state import Packing, PackingError
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.strain import Shear, StepStrain
 from grainmodes.protocols.compression.trajectory import (
@@ -52,7 +52,7 @@ def test_ten_grains_fit_at_every_strain(strain):
     """N = 10 of C: the box is 2.57 d wide, and at γ = 1/2 it has to be 2.24 d."""
     packing = quenched(10, 0.9)
     sheared = packing.sheared(strain)
-    contacts = find_contacts(sheared)
+    contacts = sheared.contacts
     assert list(zip(contacts.i, contacts.j, strict=True)) == [(p.i, p.j) for p in pairs_of(sheared)]
     with pytest.raises(PackingError, match="meets two images"):
         packing.sheared(0.9)

@@ -11,7 +11,7 @@ from grainmodes.kernels.damping import Drag
 from grainmodes.kernels.laws import Hertz, Interaction
 from grainmodes.kernels.neighbours import FRACTION_UNIT
 from grainmodes.packing.forces import energy, net_force, stress
-from grainmodes.packing.state import Packing, PackingError, find_contacts
+from grainmodes.packing.state import Packing, PackingError
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear, StepStrain
 from grainmodes.protocols.shear.first_event import accepted_steps
@@ -37,7 +37,7 @@ def before_the_first_event(name: str, interaction) -> EquilibriumState:
 
 
 def sigma(packing: Packing, interaction) -> float:
-    return float(stress(packing, find_contacts(packing), interaction)[0, 1])
+    return float(stress(packing, interaction)[0, 1])
 
 
 def test_newton_from_beyond_an_event_is_not_believed():
@@ -61,7 +61,7 @@ def test_a_saddle_beyond_an_event_is_left():
     assert saddle is not None and saddle.residual < 1e-14 and saddle.unstable
     found, jumped = step_to(strain, before, CHOICES)
     assert jumped and not found.unstable and found.residual < 1e-14
-    assert energy(found.contacts, FREE) < energy(saddle.contacts, FREE)
+    assert energy(found.packing, FREE) < energy(saddle.packing, FREE)
 
 
 def image_of(packing: Packing, number: int) -> Packing:
@@ -79,7 +79,7 @@ def test_ten_images_further_every_contact_is_found(strain):
     )
     for number in range(1, 11):
         further = image_of(packing, number)
-        far, there = find_contacts(replace(packing, strain=strain + number)), find_contacts(further)
+        far, there = replace(packing, strain=strain + number).contacts, further.contacts
         assert len(far.i) <= len(there.i) == len(pairs_of(further))
         affine = packing.position + packing.box_length * number * np.outer(
             packing.fraction[1] * FRACTION_UNIT + 0.5, [1.0, 0.0]
@@ -87,7 +87,7 @@ def test_ten_images_further_every_contact_is_found(strain):
         twin = Packing.from_positions(affine, packing.diameter, packing.box_length, strain)
         np.testing.assert_allclose(
             net_force(further, there, interaction),
-            net_force(twin, find_contacts(twin), interaction),
+            net_force(twin, interaction),
             atol=1e-13,
         )
     assert len(far.i) < len(there.i)

@@ -11,7 +11,7 @@ from example_packings import ELASTIC, reference
 from grainmodes.kernels.laws import Hertz, Interaction
 from grainmodes.packing.forces import largest, mean_contact_force, net_force, stress
 from grainmodes.packing.jacobian import jacobian
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import step_strain
@@ -27,18 +27,16 @@ BUDGET = 200_000
 
 
 def jammed(packing: Packing) -> bool:
-    contacts = find_contacts(packing)
-    force = largest(net_force(packing, contacts, FREE))[0]
-    return is_jammed(packing, contacts, FREE, force)
+    return is_jammed(packing, FREE, largest(net_force(packing, FREE))[0])
 
 
 def load(packing: Packing) -> float:
     """Mean contact force."""
-    return mean_contact_force(find_contacts(packing), FREE)
+    return mean_contact_force(packing, FREE)
 
 
 def pressure(packing: Packing) -> float:
-    return -float(np.trace(stress(packing, find_contacts(packing), FREE)))
+    return -float(np.trace(stress(packing, FREE)))
 
 
 def loosened(finest: float) -> tuple[Packing, list[Packing]]:
@@ -83,7 +81,7 @@ def test_at_jamming_contacts_and_pressure_make_no_solid(around):
         simulated, rel=0.02
     )
     pressed = [packing for packing in below if pressure(packing) > 0.0]
-    isostatic = [p for p in pressed if len(find_contacts(p).i) >= 2 * p.n - 3]
+    isostatic = [p for p in pressed if len(p.contacts.i) >= 2 * p.n - 3]
     assert len(pressed) >= 3 and isostatic
     assert not any(jammed(packing) for packing in pressed)
     rows = rigidity_block(as_block(pressed), LAW, Rattlers()).variables
@@ -91,9 +89,9 @@ def test_at_jamming_contacts_and_pressure_make_no_solid(around):
 
 
 def test_below_jamming_nothing_touches(around):
-    free = [packing for packing in around[1] if not len(find_contacts(packing).i)]
+    free = [packing for packing in around[1] if not len(packing.contacts.i)]
     assert free
-    matrix = jacobian(free[0], find_contacts(free[0]), Interaction.from_law(LAW)).toarray()
+    matrix = jacobian(free[0], Interaction.from_law(LAW)).toarray()
     with pytest.raises(np.linalg.LinAlgError):
         np.linalg.solve(matrix[2:, 2:], np.ones(len(matrix) - 2))
     rows = rigidity_block(as_block(free), LAW, Rattlers()).variables

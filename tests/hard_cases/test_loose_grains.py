@@ -9,8 +9,7 @@ import pytest
 import naive_failures
 from example_packings import ELASTIC, elastic, reference
 from grainmodes.kernels.laws import Hertz
-from grainmodes.packing.contacts import rattlers
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing, rattlers
 from grainmodes.relaxation import rattlers as rattlers_out
 from grainmodes.relaxation.frictionless import relax_fire_newton
 from grainmodes.relaxation.newton import newton
@@ -34,7 +33,7 @@ def void() -> np.ndarray:
 
 def cusp() -> np.ndarray:
     """A place that touches both grains of a contact, on one side of it."""
-    contacts = find_contacts(SOLID)
+    contacts = SOLID.contacts
     i, j = contacts.i[0], contacts.j[0]
     r_i, r_j = (0.5 * SOLID.diameter[g] + 0.48 * SMALL for g in (i, j))
     r = contacts.distance[0]
@@ -74,7 +73,7 @@ CASES = {
 @pytest.mark.parametrize("places", CASES.values(), ids=CASES.keys())
 def test_what_is_loose_does_not_change_g(places, kt):
     interaction, packing = elastic("hertz", kt), crowded(*places)
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     degree = np.bincount(np.append(contacts.i, contacts.j), minlength=packing.n)[SOLID.n :]
     assert degree.max() <= 2
     expected = rigidity(SOLID, interaction).unloaded.g
@@ -86,11 +85,11 @@ def test_what_is_loose_does_not_change_g(places, kt):
 
 def test_a_chain_is_taken_off_grain_by_grain():
     packing = crowded(*CASES["a chain"])
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     loose = np.arange(packing.n) >= SOLID.n
     once = naive_failures.rounds_removing(contacts, packing.n, threshold=1, rounds=1)
     assert once.sum() == 1
-    np.testing.assert_array_equal(rattlers(contacts, packing.n, threshold=1), loose)
+    np.testing.assert_array_equal(rattlers(packing, threshold=1), loose)
 
 
 @pytest.mark.parametrize("places", [CASES["one contact"], CASES["a pair by itself"]])
@@ -101,7 +100,7 @@ def test_a_loose_contact_is_let_go_at_once(places, monkeypatch):
     assert not newton(packing, elastic("hertz", 0.0), 1e-14).converged
     relaxed = relax_fire_newton(packing, Hertz(1.0), 1e-14, 100_000)
     assert relaxed.converged and relaxed.max_force < 1e-14
-    assert find_contacts(relaxed.packing).i.max() < SOLID.n
+    assert relaxed.packing.contacts.i.max() < SOLID.n
 
 
 def test_two_contacts_may_hold_a_grain_by_friction():

@@ -10,7 +10,7 @@ from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Hertz, Interaction
 from grainmodes.kernels.neighbours import FRACTION_UNIT
 from grainmodes.packing.forces import largest, net_force
-from grainmodes.packing.state import Packing, PackingError, find_contacts
+from grainmodes.packing.state import Packing, PackingError
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fire_newton
@@ -21,7 +21,7 @@ INTERACTION = Interaction.from_law(ContactLaw(kt=1e-4))
 
 
 def rest(packing: Packing) -> float:
-    return largest(net_force(packing, find_contacts(packing), elastic("hertz", 0.0)))[0]
+    return largest(net_force(packing, elastic("hertz", 0.0)))[0]
 
 
 def at_rest() -> Packing:

@@ -5,7 +5,6 @@ import pytest
 
 from example_packings import ELASTIC, MINIMAL, elastic, reference
 from grainmodes.kernels.damping import Drag
-from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import step_strain
@@ -36,7 +35,7 @@ def test_the_unloaded_step_is_no_quadratic_form(kt):
     """g_NA = −aᵀJ⁺a/L² ≤ 0 holds for a loaded step only; the unloaded g_NA is positive here."""
     interaction = elastic("hertz", kt)
     found = rigidity(PACKING, interaction)
-    step = AffineStep(PACKING, find_contacts(PACKING), interaction, loaded=False)
+    step = AffineStep(PACKING, interaction, loaded=False)
     form = -(step.force.ravel() @ found.unloaded.displacement.ravel()) / PACKING.box_length**2
     assert form < 0.0 < found.unloaded.g_nonaffine
     simulated = step_strain(PACKING, interaction, StepStrain())

@@ -14,7 +14,7 @@ from hypothesis import HealthCheck, settings
 import naive
 from grainmodes.kernels.laws import Hertz, Interaction
 from grainmodes.packing.contacts import Contacts, History
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.protocols.compression.trajectory import (
@@ -131,7 +131,7 @@ def _nothing_just_touches(packing: Packing) -> bool:
 
 def with_slip(packing: Packing, draws, slip: float) -> Packing:
     """The packing with random tangential springs, 0.1 … 1 times `slip` times the overlap."""
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     size = len(contacts.i)
     s = slip * contacts.overlap * draws.uniform(0.1, 1.0, size) * draws.choice([-1.0, 1.0], size)
     return replace(packing, history=History(contacts.i, contacts.j, s))
@@ -148,7 +148,7 @@ def crystal(columns: int, rows: int, spacing: float) -> Packing:
 
 def keeping(law: ContactLaw, packing: Packing) -> Packing:
     """The packing with what the law remembers of its springs: s, or h = k s."""
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     kept = naive.remembered(law, contacts.overlap, contacts.displacement)
     return replace(packing, history=History(contacts.i, contacts.j, kept))
 
@@ -167,7 +167,7 @@ def pairs_of(packing: Packing, skin: float = 0.0) -> list[naive.Pair]:
 
 def contacts_and_pairs(packing: Packing) -> tuple[Contacts, list[naive.Pair]]:
     """Contacts as the package sees them, and as the slow twin does."""
-    return find_contacts(packing), pairs_of(packing)
+    return packing.contacts, pairs_of(packing)
 
 
 BACKENDS = ["superlu", *(["pardiso"] if find_spec("pypardiso") else [])]

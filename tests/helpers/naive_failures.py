@@ -8,7 +8,7 @@ import scipy.linalg
 import naive
 from grainmodes.linalg.symmetric_shift import SymmetricShift
 from grainmodes.packing.jacobian import jacobian
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.response.moduli import AffineStep
 
 
@@ -54,9 +54,8 @@ def eigenpairs_near(shift: SymmetricShift, sigma: float, size: int, block: int):
 
 def with_all_grains(packing: Packing, interaction) -> tuple[float, float]:
     """(g, lowest eigenvalue) with every grain in J, loose or not; g is NaN where J is singular."""
-    contacts = find_contacts(packing)
-    step = AffineStep(packing, contacts, interaction, loaded=False)
-    matrix = jacobian(packing, contacts, interaction).toarray()
+    step = AffineStep(packing, interaction, loaded=False)
+    matrix = jacobian(packing, interaction).toarray()
     try:
         u = np.linalg.solve(matrix[2:, 2:], step.force.ravel()[2:])
     except np.linalg.LinAlgError:

@@ -13,7 +13,6 @@ from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.mass_weighted import generalized_mass
-from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.release import Release
 from grainmodes.protocols.release.release_run import ReleaseRun
@@ -31,7 +30,7 @@ def state() -> tuple[UnstableState, ContactLaw, Interaction]:
     law = smoothed_coulomb(data)
     interaction = Interaction.from_law(law)
     mass = generalized_mass(packing.mass).ravel()
-    matrix = jacobian(packing, find_contacts(packing), interaction).toarray() / mass[:, None]
+    matrix = jacobian(packing, interaction).toarray() / mass[:, None]
     values, vectors = scipy.linalg.eig(matrix)
     fastest = np.argmax(np.sqrt(values).imag)
     turning = replace(packing, rotation=np.zeros(packing.n))

@@ -23,7 +23,7 @@ from example_packings import elastic
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import forces_on_i, net_force
 from grainmodes.packing.jacobian import jacobian, stiffness_of
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.spectrum import packing_spectrum
 
 R, KT, S = 0.91, 0.3, 0.02
@@ -65,11 +65,11 @@ ANGLES = (0.0, 0.4, np.pi / 2, 2.5, -1.1)
 def test_force_and_torque_of_two_grains(normal, angle):
     f, _, k = force(normal)
     packing = pair(angle, S)
-    interaction, contacts = elastic(normal, KT), find_contacts(packing)
+    interaction, contacts = elastic(normal, KT), packing.contacts
     on_i = turned(angle) @ [f, k * S, -k * S]
     np.testing.assert_allclose(forces_on_i(contacts, interaction), [on_i], atol=1e-14)
     expected = [[-on_i[0], -on_i[1], on_i[2]], on_i]
-    np.testing.assert_allclose(net_force(packing, contacts, interaction), expected, atol=1e-14)
+    np.testing.assert_allclose(net_force(packing, interaction), expected, atol=1e-14)
 
 
 @pytest.mark.parametrize("angle", ANGLES)
@@ -78,7 +78,7 @@ def test_stiffness_of_two_grains(normal, angle):
     f, slope, k = force(normal)
     by_xi = -KT * S / (2 * XI**0.5) if normal == "hertz" else 0.0
     by_hand = np.array([[-slope, -k * S / R, 0.0], [by_xi, f / R - k, k], [-by_xi, k, -k]])
-    contacts = find_contacts(pair(angle, S))
+    contacts = pair(angle, S).contacts
     found = stiffness_of(contacts, elastic(normal, KT))[0]
     expected = turned(angle) @ by_hand @ turned(angle).T
     np.testing.assert_allclose(found, expected, atol=1e-13)
@@ -118,10 +118,10 @@ def test_spectrum_of_a_frictionless_triangle(normal):
 
 def test_only_friction_couples_rotation():
     packing = triangle(0.3)
-    blocks = jacobian(packing, find_contacts(packing), elastic("hertz", KT)).toarray()
+    blocks = jacobian(packing, elastic("hertz", KT)).toarray()
     blocks = blocks.reshape(3, 3, 3, 3)
-    bare = jacobian(packing, find_contacts(packing), elastic("hertz", 0.0)).toarray()
-    weak = jacobian(packing, find_contacts(packing), elastic("hertz", 1e-12)).toarray()
+    bare = jacobian(packing, elastic("hertz", 0.0)).toarray()
+    weak = jacobian(packing, elastic("hertz", 1e-12)).toarray()
     assert np.abs(blocks[:, 2]).max() > 0.01
     weak = weak.reshape(3, 3, 3, 3)[:, :2, :, :2].reshape(6, 6)
     np.testing.assert_allclose(weak, bare, atol=1e-11)

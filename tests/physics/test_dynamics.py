@@ -8,7 +8,7 @@ from example_packings import crowd, pairs_of, reference
 from grainmodes.kernels.damping import Dashpot, Drag, Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Elastic, Hertz, Interaction
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.dynamics import Motion, move, relax_damped
 
@@ -101,7 +101,7 @@ def bounced(viscosity: float, rate: float, t: float, steps: int) -> tuple[float,
     interaction = Interaction.from_law(HARMONIC)
     end = move(head_on(overlap), start, interaction, damping, t / steps, Stop(0.0, steps))
     xi, speed = bounce(viscosity, overlap, rate, t)
-    found = find_contacts(end.packing).overlap[0]
+    found = end.packing.contacts.overlap[0]
     return abs(found - xi), abs(end.velocity[0, 0] - end.velocity[1, 0] - speed)
 
 
@@ -144,9 +144,9 @@ def test_slip_is_forgotten_when_a_contact_opens():
     start = np.zeros((2, 3))
     start[:, 2] = 0.05
     touching = move(packing, start, interaction, Undamped(), 1e-2, Stop(0.0, 20))
-    assert abs(find_contacts(touching.packing).displacement[0]) > 1e-3
+    assert abs(touching.packing.contacts.displacement[0]) > 1e-3
     apart = move(touching.packing, touching.velocity, interaction, Undamped(), 1e-2, Stop(0.0, 300))
-    assert len(find_contacts(apart.packing).i) == 0
+    assert len(apart.packing.contacts.i) == 0
     assert len(apart.packing.history.i) == 0
 
 

@@ -20,7 +20,7 @@ from example_packings import (
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import net_force, stress
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.response.moduli import rigidity
 from grainmodes.spectrum import packing_spectrum
 
@@ -86,12 +86,12 @@ def test_no_friction_loaded_or_not_only_softens(name):
 def everything(packing: Packing, interaction) -> dict[str, np.ndarray]:
     """All that a block would hold of a packing."""
     contacts, moduli, modes = (
-        find_contacts(packing),
+        packing.contacts,
         rigidity(packing, interaction),
         packing_spectrum(packing, interaction),
     )
     return {
-        "stress": stress(packing, contacts, interaction),
+        "stress": stress(packing, interaction),
         "overlap": np.sort(contacts.overlap),
         "eigenvalue": modes.eigenvalue,
         "unloaded": moduli.unloaded.affine + moduli.unloaded.nonaffine,
@@ -197,7 +197,7 @@ def test_a_quarter_turn_keeps_the_modes_and_turns_the_stress(name, kt):
 def test_shear_along_y_is_shear_along_x_and_a_rotation(name):
     """Without friction dσ_xy/d(∂u_y/∂x) = g + σ_xx − σ_yy, which a quarter turn measures."""
     packing, interaction = reference(name)[1], elastic(name, 0.0)
-    sigma = stress(packing, find_contacts(packing), interaction)
+    sigma = stress(packing, interaction)
     here, there = (rigidity(p, interaction).unloaded.g for p in (packing, quarter_turn(packing)))
     assert there == pytest.approx(here + sigma[0, 0] - sigma[1, 1], rel=1e-9, abs=1e-12)
 
@@ -210,5 +210,5 @@ def test_one_row_of_the_box_higher_is_one_shear_to_the_side(law):
     other = Packing.from_positions(
         position, packing.diameter, packing.box_length, -0.5, packing.mass, packing.history
     )
-    forces = [net_force(p, find_contacts(p), Interaction.from_law(law)) for p in (packing, other)]
+    forces = [net_force(p, Interaction.from_law(law)) for p in (packing, other)]
     np.testing.assert_allclose(forces[0], forces[1], atol=1e-13)

@@ -7,10 +7,9 @@ from hypothesis import strategies as st
 
 import naive
 from example_packings import elastic, few, pairs_of
-from grainmodes.packing.contacts import rattlers
 from grainmodes.packing.forces import largest, net, net_force
 from grainmodes.packing.jacobian import jacobian
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing, rattlers
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import StepStrain
@@ -43,7 +42,7 @@ C_GRAINS = {"large_diameter": 1.4, "masses": "equal"}
 
 
 def backbone(packing: Packing) -> Packing:
-    return packing.without(rattlers(find_contacts(packing), packing.n, 2))
+    return packing.without(rattlers(packing, 2))
 
 
 def rigid(packing: Packing) -> bool:
@@ -66,7 +65,7 @@ def test_every_packing_is_in_balance_at_its_density(n, phi, seed, normal, relaxa
     # The positions of the slow twin are rounded to 1e-16 of the box.
     assert np.abs(force).max() < 2e-14
     interaction = elastic(normal, 0.0)
-    assert largest(net_force(packing, find_contacts(packing), interaction))[0] < 1.1e-14
+    assert largest(net_force(packing, interaction))[0] < 1.1e-14
 
 
 @few(10)
@@ -76,7 +75,7 @@ def test_grains_of_paper_c(n, phi, seed, normal):
     assert sorted(packing.diameter) == [1.0] * (n // 2) + [1.4] * (n // 2)
     assert packing.phi == pytest.approx(phi, rel=1e-12)
     np.testing.assert_array_equal(packing.mass, 1.0)
-    force = net_force(packing, find_contacts(packing), elastic(normal, 0.0))
+    force = net_force(packing, elastic(normal, 0.0))
     assert largest(force)[0] < 1.1e-14
 
 
@@ -94,7 +93,7 @@ def test_harmonic_grains_know_no_length(relaxation):
 @given(n=sizes, phi=st.floats(0.6, 0.7), seed=seeds)
 def test_dilute_grains_carry_no_force(n, phi, seed):
     """A contact may be left whose force, ξ^(3/2), is below the tolerance of the balance."""
-    overlap = find_contacts(compressed(n, phi, seed)).overlap
+    overlap = compressed(n, phi, seed).contacts.overlap
     assert np.all(overlap**1.5 < 1e-14)
 
 
@@ -137,7 +136,7 @@ def test_spectrum_of_every_packing(n, phi, seed, normal, kt):
     assert len(found.eigenvalue) == (3 if kt else 2) * core.n
     assert np.all(np.diff(found.eigenvalue) >= 0)
     assert found.residual < 1e-13 * max(1.0, kt)
-    matrix = jacobian(core, find_contacts(core), interaction)
+    matrix = jacobian(core, interaction)
     assert found.eigenvalue.sum() == pytest.approx(matrix.trace(), rel=1e-12)
     # A packing is a minimum, and friction that is not loaded only stiffens it.
     assert found.eigenvalue[0] > -1e-12 * max(1.0, kt)
@@ -155,7 +154,7 @@ def test_loaded_response_is_minimal_energy(n, phi, seed, normal, kt):
         return
     loaded = rigidity(packing, elastic(normal, kt)).loaded
     core = backbone(packing)
-    matrix = jacobian(core, find_contacts(core), elastic(normal, kt))
+    matrix = jacobian(core, elastic(normal, kt))
     u = loaded.displacement.ravel()
     assert loaded.g_nonaffine * core.box_length**2 == pytest.approx(-u @ (matrix @ u), rel=1e-9)
     if packing_spectrum(core, elastic(normal, kt), modes=False).eigenvalue[0] > -1e-12:
@@ -184,6 +183,6 @@ def test_response_does_not_see_the_origin_or_the_numbering(n, phi, seed, shift):
 
 def test_sum_of_forces_on_grains_is_zero_for_any_contact_force():
     packing = compressed(16, 0.9, 3)
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     rate = np.random.default_rng(0).normal(size=(len(contacts.i), 3))
     np.testing.assert_allclose(net(contacts, rate, 16)[:, :2].sum(axis=0), 0.0, atol=1e-13)

@@ -20,7 +20,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import stress
 from grainmodes.packing.hessian import effective_hessian
 from grainmodes.packing.jacobian import jacobian, stiffness_of
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.newton import newton
 from grainmodes.response.moduli import Moduli, rigidity
@@ -32,7 +32,7 @@ KT = 1.0
 
 def ours(packing: Packing, interaction) -> np.ndarray:
     """J of the package, (N, 3, N, 3)."""
-    matrix = jacobian(packing, find_contacts(packing), interaction).toarray()
+    matrix = jacobian(packing, interaction).toarray()
     return matrix.reshape(packing.n, 3, packing.n, 3)
 
 
@@ -91,7 +91,7 @@ def height_times_xi(pairs: list[naive.Pair]) -> list[float]:
 def test_affine_rigidity_of_paper_b_has_the_wrong_sign():
     """B (43) gives −g_A of the symmetrised stress, less the term that it drops."""
     packing, pairs, moduli = unloaded(HARMONIC)
-    sigma = stress(packing, find_contacts(packing), elastic(HARMONIC, KT))
+    sigma = stress(packing, elastic(HARMONIC, KT))
     kept = (moduli.affine[0, 1] + moduli.affine[1, 0] - sigma[1, 1]) / 2
     found = printed_formulas.harmonic_affine_rigidity(pairs, packing.box_length)
     assert found == pytest.approx(-kept)
@@ -152,7 +152,7 @@ def test_tangential_force_of_paper_a_pushes_the_wrong_way():
             -d13
         )
         assert naive.tangential_force(law, overlap, 1j * h).imag / h == pytest.approx(d13)
-    k = stiffness_of(find_contacts(packing), elastic("hertz", KT))
+    k = stiffness_of(packing.contacts, elastic("hertz", KT))
     assert np.all(k[:, 2, 2] < 0)
 
 
@@ -194,7 +194,7 @@ def test_tangent_rotates_with_the_contact(normal):
     """A (App. D, F) and B (App. D3) miss −(f_T/r) n tᵀ: B's J does not even depend on ξ_T."""
     law = ContactLaw(normal, "elastic", KT)
     packing = crowd(44, slip=0.4)
-    k = stiffness_of(find_contacts(packing), Interaction.from_law(law))
+    k = stiffness_of(packing.contacts, Interaction.from_law(law))
     for pair, found in zip(pairs_of(packing), k, strict=True):
         still = naive.contact_stiffness(law, pair._replace(slip=0.0))
         n, _, r, xi = printed_formulas.parts(pair)
@@ -213,12 +213,11 @@ def test_symmetrised_stress_needs_the_force_along_the_shear():
     moduli = rigidity(packing, interaction).unloaded
     g_yx = moduli.affine[1, 0] + moduli.nonaffine[1, 0]
     sigma = [
-        stress(p, find_contacts(p), interaction)
-        for p in (strained(packing, interaction, s) for s in (1e-6, -1e-6))
+        stress(p, interaction) for p in (strained(packing, interaction, s) for s in (1e-6, -1e-6))
     ]
     simulated = ((sigma[0] - sigma[1]) / 2e-6)[1, 0]
     assert g_yx == pytest.approx(simulated, rel=1e-5)
-    dropped = g_yx - stress(packing, find_contacts(packing), interaction)[1, 1]
+    dropped = g_yx - stress(packing, interaction)[1, 1]
     assert dropped == pytest.approx(float(data.g_yx - data.sigma_yy), rel=1e-8)
     assert abs(dropped / simulated - 1) > 0.1
 
@@ -227,7 +226,7 @@ def test_imaginary_part_of_an_eigenpair():
     """C (25) reads J u_i = λ_i u_r + λ_r u_i, not + λ_r u_r."""
     data, packing = reference(SHEARED)
     interaction = Interaction.from_law(smoothed_coulomb(data))
-    matrix = jacobian(packing, find_contacts(packing), interaction)
+    matrix = jacobian(packing, interaction)
     found = packing_spectrum(packing, interaction)
     pair = np.argmax(found.eigenvalue.imag)
     value, mode = found.eigenvalue[pair], found.modes[:, pair]
@@ -242,13 +241,12 @@ def test_imaginary_part_of_an_eigenpair():
 def test_constant_stiffnesses_of_the_effective_hessian_are_those_of_harmonic_grains(name, ratio):
     """A (H2) with k_N and k_T to the letter is too stiff for Hertzian grains; slopes give D."""
     packing, interaction = reference(name)[1], elastic(name, KT)
-    contacts = find_contacts(packing)
     right, tangent, constant = (
         np.sqrt(np.linalg.eigvalsh(matrix.toarray())[2:])
         for matrix in (
-            jacobian(packing, contacts, interaction),
-            effective_hessian(packing, contacts, interaction),
-            effective_hessian(packing, contacts, interaction, "printed"),
+            jacobian(packing, interaction),
+            effective_hessian(packing, interaction),
+            effective_hessian(packing, interaction, "printed"),
         )
     )
     np.testing.assert_allclose(tangent, right, rtol=1e-11)

@@ -6,9 +6,8 @@ from scipy.stats import ks_2samp
 
 from example_packings import elastic
 from grainmodes.kernels.damping import Dashpot
-from grainmodes.packing.contacts import rattlers
 from grainmodes.packing.forces import stress
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing, rattlers
 from grainmodes.parameters.compression import Compression
 from grainmodes.protocols.compression.trajectory import (
     compress_along_grid,
@@ -37,18 +36,18 @@ def sample(seed: int, protocol: Compression) -> dict[str, float]:
     grid = compress_along_grid(start, PHI, NORMAL, protocol)
     relaxed = compress_to(grid, PHI, NORMAL, protocol)
     core = backbone(relaxed.packing)
-    contacts = find_contacts(core)
+    contacts = core.contacts
     return {
         "converged": relaxed.converged and relaxed.max_force < 1e-14,
         "phi_jamming": grid.phi_jamming,
-        "pressure": -np.trace(stress(core, contacts, elastic("hertz", 0.0))) / 2,
+        "pressure": -np.trace(stress(core, elastic("hertz", 0.0))) / 2,
         "contact_number": 2 * len(contacts.i) / core.n,
         "g": rigidity(core, elastic("hertz", 0.0)).unloaded.g,
     }
 
 
 def backbone(packing: Packing) -> Packing:
-    return packing.without(rattlers(find_contacts(packing), packing.n, 2))
+    return packing.without(rattlers(packing, 2))
 
 
 @pytest.fixture(scope="module")
@@ -89,5 +88,5 @@ def same_state(one: Packing, two: Packing) -> None:
     apart -= apart.mean(axis=1, keepdims=True)
     assert np.abs(apart).max() < 1e-10
     assert np.abs(one.rotation - two.rotation).max() < 1e-10
-    slips = [find_contacts(p).displacement for p in (one, two)]
+    slips = [p.contacts.displacement for p in (one, two)]
     np.testing.assert_allclose(*slips, atol=1e-10)

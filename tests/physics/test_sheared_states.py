@@ -48,7 +48,7 @@ def test_loaded_springs_cost_the_jacobian_its_symmetry(run):
     """Of max|J − Jᵀ| no more than −(f_T/r) n tᵀ of all contacts of a grain."""
     equilibrium = run.state.equilibrium
     row, whole = run_row(run), equilibrium.matrix.toarray()
-    contacts = equilibrium.backbone_contacts
+    contacts = equilibrium.backbone.contacts
     bent = np.abs(B.kt * contacts.displacement / contacts.distance)
     difference = np.abs(whole - whole.T).max()
     assert row["last_asymmetry"] == pytest.approx(difference / np.abs(whole).max())

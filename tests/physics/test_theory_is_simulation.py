@@ -8,7 +8,7 @@ import pytest
 from example_packings import ELASTIC, MINIMAL, elastic, every_kt_once, reference
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import stress
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.relaxation.newton import newton
@@ -31,7 +31,7 @@ def test_unloaded_step(name, kt):
 
 def continuously_sheared(packing: Packing, interaction, strain: float) -> Packing:
     """A step that the tangential springs feel, relaxed."""
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     slide = contacts.normal[:, 1] * contacts.normal[:, 1] * contacts.distance * strain
     history = History(contacts.i, contacts.j, slide)
     relaxed = newton(replace(packing, history=history).sheared(strain), interaction, 1e-14, 40)
@@ -43,7 +43,7 @@ def continuously_sheared(packing: Packing, interaction, strain: float) -> Packin
 def test_loaded_step(name, kt):
     packing, interaction = reference(name)[1], elastic(name, kt)
     ends = [continuously_sheared(packing, interaction, step) for step in (1e-6, -1e-6)]
-    sigma = [stress(end, find_contacts(end), interaction)[0, 1] for end in ends]
+    sigma = [stress(end, interaction)[0, 1] for end in ends]
     simulated = (sigma[0] - sigma[1]) / 2e-6
     assert simulated == pytest.approx(rigidity(packing, interaction).loaded.g, rel=1e-5)
 

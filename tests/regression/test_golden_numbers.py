@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from example_packings import ELASTIC, elastic, reference
-from grainmodes.packing.contacts import rattlers
 from grainmodes.packing.forces import stress
-from grainmodes.packing.state import find_contacts
+from grainmodes.packing.state import rattlers
 from grainmodes.parameters.compression import Compression
 from grainmodes.protocols.compression.trajectory import compress_to, place_at_random
 from grainmodes.response.moduli import rigidity
@@ -34,7 +33,7 @@ def test_seeds_keep_their_packings(n, seed, pressure, g, g_loaded):
         place_at_random(n, seed, interaction.normal, protocol), 0.9, interaction.normal, protocol
     ).packing
     sigma, moduli = (
-        stress(packing, find_contacts(packing), interaction),
+        stress(packing, interaction),
         rigidity(packing, interaction),
     )
     found = [-np.trace(sigma) / 2, moduli.unloaded.g, moduli.loaded.g]
@@ -55,9 +54,9 @@ STORED = {
 @pytest.mark.parametrize("name", ELASTIC)
 def test_stored_packings_keep_their_numbers(name):
     packing, interaction = reference(name)[1], elastic(name, 1.0)
-    contacts = find_contacts(packing)
-    assert not rattlers(contacts, packing.n, 2).any()
+    contacts = packing.contacts
+    assert not rattlers(packing, 2).any()
     found = packing_spectrum(packing, interaction)
-    pressure = -np.trace(stress(packing, contacts, interaction)) / 2
+    pressure = -np.trace(stress(packing, interaction)) / 2
     numbers = [pressure, len(contacts.i), found.eigenvalue.sum(), found.participation_ratio.mean()]
     np.testing.assert_allclose(numbers, STORED[name], rtol=1e-6)

@@ -28,6 +28,11 @@ class Contacts:
     spring_state: np.ndarray | None = None
 
     @property
+    def key(self) -> np.ndarray:
+        """One number for every pair of grains, ascending, (C,) int64: see `pair_key`."""
+        return pair_key(self.i, self.j)
+
+    @property
     def tangent(self) -> np.ndarray:
         """t = (n_y, −n_x), shape (C, 2)."""
         return np.stack([self.normal[:, 1], -self.normal[:, 0]], axis=1)
@@ -62,6 +67,11 @@ class History:
     j: np.ndarray
     spring_state: np.ndarray
 
+    @property
+    def key(self) -> np.ndarray:
+        """One number for every pair of grains, ascending, (C,) int64: see `pair_key`."""
+        return pair_key(self.i, self.j)
+
     @classmethod
     def of(cls, i: np.ndarray, j: np.ndarray, spring_state: np.ndarray) -> History:
         """The history of pairs in any order; s does not change sign when i and j are swapped."""
@@ -75,6 +85,21 @@ class History:
         return History(i, j, self.spring_state[held])
 
 
+def pair_key(i: np.ndarray, j: np.ndarray) -> np.ndarray:
+    """2³² i + j of pairs (i, j), (C,) int64: ascending where the pairs are sorted by (i, j)."""
+    return i.astype(np.int64) << 32 | j
+
+
+def pairs_of_key(key: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Grains (i, j) of the pairs with these keys, (C,) int64 each."""
+    return key >> 32, key & (2**32 - 1)
+
+
+def contact_changes(before: Contacts, after: Contacts) -> int:
+    """Number of pairs that touch in one state but not in the other, of the same grains."""
+    return len(np.setxor1d(before.key, after.key, assume_unique=True))
+
+
 def _among(
     keep: np.ndarray, i: np.ndarray, j: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -82,16 +107,3 @@ def _among(
     held = keep[i] & keep[j]
     number = np.cumsum(keep, dtype=np.int32) - 1
     return held, number[i[held]], number[j[held]]
-
-
-def rattlers(contacts: Contacts, n: int, threshold: int) -> np.ndarray:
-    """(N,) bool: grains of at most `threshold` contacts, removed until none is left: A, App. E."""
-    gone = np.zeros(n, bool)
-    while True:
-        held = ~(gone[contacts.i] | gone[contacts.j])
-        degree = np.bincount(contacts.i[held], minlength=n)
-        degree += np.bincount(contacts.j[held], minlength=n)
-        newly = (degree <= threshold) & ~gone
-        if not newly.any():
-            return gone
-        gone |= newly

@@ -50,8 +50,9 @@ def sliding(contacts: Contacts, interaction: Interaction) -> np.ndarray:
     return np.abs(contacts.displacement) >= SLIDING_FRACTION * slides_at
 
 
-def net_force(packing: Packing, contacts: Contacts, interaction: Interaction) -> np.ndarray:
+def net_force(packing: Packing, interaction: Interaction) -> np.ndarray:
     """F̃ on every grain: (N, 2) frictionless, else (N, 3) = (F_x, F_y, 2 T/d), in k_N d^(3/2)."""
+    contacts = packing.contacts
     return net(contacts, forces_on_i(contacts, interaction), packing.n)
 
 
@@ -68,22 +69,23 @@ def largest(force: np.ndarray) -> tuple[float, float]:
     return float(np.abs(force[:, :2]).max()), torque
 
 
-def stress(packing: Packing, contacts: Contacts, interaction: Interaction) -> np.ndarray:
-    """σ_αβ, shape (2, 2), in k_N d^(1/2)."""
+def stress(packing: Packing, interaction: Interaction) -> np.ndarray:
+    """σ_αβ of a packing, (2, 2) in k_N d^(1/2): A (14)."""
+    contacts = packing.contacts
     branch = contacts.normal * contacts.distance[:, None]
     forces = forces_on_i(contacts, interaction)[:, :2]
     return -(forces.T @ branch) / packing.box_length**2
 
 
-def energy(contacts: Contacts, interaction: Interaction) -> float:
-    """Energy stored in the contacts: see `kernels.energies`."""
-    s = contacts.spring_state
-    return float(contact_energies(interaction, contacts.overlap, s).sum())
+def energy(packing: Packing, interaction: Interaction) -> float:
+    """Energy stored in the contacts, in k_N d^(5/2) (Hertz) or k_N d²: see `kernels.energies`."""
+    contacts = packing.contacts
+    return float(contact_energies(interaction, contacts.overlap, contacts.spring_state).sum())
 
 
-def mean_contact_force(contacts: Contacts, interaction: Interaction) -> float:
-    """Mean magnitude of the contact forces; 0 without contacts."""
-    if len(contacts.i) == 0:
+def mean_contact_force(packing: Packing, interaction: Interaction) -> float:
+    """Mean magnitude of the contact forces, k_N d^(3/2); 0 without contacts."""
+    if len(packing.contacts.i) == 0:
         return 0.0
-    forces = forces_on_i(contacts, interaction)
+    forces = forces_on_i(packing.contacts, interaction)
     return float(np.hypot(forces[:, 0], forces[:, 1]).mean())

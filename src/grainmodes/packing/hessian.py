@@ -33,7 +33,7 @@ STIFFNESSES = ("tangent", "printed")
 
 
 def effective_hessian(
-    packing: Packing, contacts: Contacts, interaction: Interaction, stiffness: str = "tangent"
+    packing: Packing, interaction: Interaction, stiffness: str = "tangent"
 ) -> sparse.csc_array:
     """H of a packing: A (H1), (kN, kN) with k = 3, or 2 without friction, in k_N d^(1/2).
 
@@ -44,6 +44,7 @@ def effective_hessian(
     """
     if stiffness not in STIFFNESSES:
         raise ValueError(f"stiffness: expected one of {', '.join(STIFFNESSES)}, got {stiffness!r}")
+    contacts = packing.contacts
     curvature = -_normal_part(contacts, interaction, stiffness)
     if not is_frictionless(interaction):
         curvature = _with_tangential(curvature, contacts, interaction, stiffness)

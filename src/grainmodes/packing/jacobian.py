@@ -36,8 +36,9 @@ def stiffness_of(contacts: Contacts, interaction: Interaction) -> np.ndarray:
     )
 
 
-def jacobian(packing: Packing, contacts: Contacts, interaction: Interaction) -> sparse.csc_array:
+def jacobian(packing: Packing, interaction: Interaction) -> sparse.csc_array:
     """J of a packing, (kN, kN) with k = 3, or 2 without friction, in k_N d^(1/2)."""
+    contacts = packing.contacts
     return assemble(stiffness_of(contacts, interaction), contacts.i, contacts.j, packing.n)
 
 

@@ -15,6 +15,7 @@ touches the fractions.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -33,7 +34,7 @@ from grainmodes.packing.box import (
     to_fraction,
     to_step,
 )
-from grainmodes.packing.contacts import Contacts, History, rattlers
+from grainmodes.packing.contacts import Contacts, History
 
 
 @dataclass(frozen=True)
@@ -85,6 +86,22 @@ class Packing:
         check_springs(self.history)
         return self
 
+    @cached_property
+    def contacts(self) -> Contacts:
+        """The touching pairs, computed once; not part of a copy, a pickle or a comparison.
+
+        Raises:
+            PackingError: two grains lie at the same place.
+        """
+        return find_contacts(self)
+
+    def __getstate__(self) -> dict[str, object]:
+        return {name: value for name, value in self.__dict__.items() if name != "contacts"}
+
+    def without_contacts(self) -> Packing:
+        """The same packing, its contacts not computed yet: for states kept in large numbers."""
+        return replace(self)
+
     @property
     def n(self) -> int:
         """Number of grains."""
@@ -134,10 +151,16 @@ class Packing:
         s_x = displacement[:, 0] / self.box_length - self.strain * s_y
         return replace(self, fraction=self.fraction + to_step(np.stack([s_x, s_y])))
 
+    def with_springs(self, spring_state: np.ndarray) -> Packing:
+        """The same grains with these spring states (C,) in the contacts, in d or k_N d^(3/2)."""
+        contacts = self.contacts
+        loaded = replace(self, history=History(contacts.i, contacts.j, spring_state))
+        return loaded._knowing(replace(contacts, spring_state=spring_state))
+
     def without(self, mask: np.ndarray) -> Packing:
-        """The packing without the grains of a (N,) mask, renumbered, its springs with it."""
+        """The packing without the grains of a mask (N,) bool: renumbered, with its springs."""
         keep = ~mask
-        return replace(
+        smaller = replace(
             self,
             fraction=np.ascontiguousarray(self.fraction[:, keep]),
             diameter=self.diameter[keep],
@@ -145,6 +168,13 @@ class Packing:
             rotation=None if self.rotation is None else self.rotation[keep],
             history=None if self.history is None else self.history.among(keep),
         )
+        known = "contacts" in self.__dict__ and keep.any()
+        return smaller._knowing(self.contacts.among(keep)) if known else smaller
+
+    def _knowing(self, contacts: Contacts) -> Packing:
+        """This packing, its contacts given instead of computed."""
+        self.__dict__["contacts"] = contacts
+        return self
 
 
 def nonaffine_motion(before: Packing, after: Packing) -> np.ndarray:
@@ -178,14 +208,30 @@ def find_contacts(packing: Packing) -> Contacts:
         k = int(np.argmin(distance))
         raise PackingError(f"grains {i[k]} and {j[k]} lie at the same place: no normal is defined")
     known = packing.history
-    s = known and values_of_pairs(known.i, known.j, known.spring_state, i, j)
+    if known is None:
+        return Contacts(i, j, normal, distance, overlap)
+    s = values_of_pairs(known.i, known.j, known.spring_state, i, j)
     return Contacts(i, j, normal, distance, overlap, s)
+
+
+def rattlers(packing: Packing, threshold: int) -> np.ndarray:
+    """(N,) bool: grains of at most `threshold` contacts, removed until none is left: A, App. E."""
+    contacts, n = packing.contacts, packing.n
+    is_rattler = np.zeros(n, bool)
+    while True:
+        between = ~(is_rattler[contacts.i] | is_rattler[contacts.j])
+        degree = np.bincount(contacts.i[between], minlength=n)
+        degree += np.bincount(contacts.j[between], minlength=n)
+        further = (degree <= threshold) & ~is_rattler
+        if not further.any():
+            return is_rattler
+        is_rattler |= further
 
 
 def backbone(packing: Packing, threshold: int) -> Packing:
     """The packing without its rattlers, those of at most `threshold` contacts."""
-    gone = rattlers(find_contacts(packing), packing.n, threshold)
-    return packing.without(gone) if gone.any() else packing
+    is_rattler = rattlers(packing, threshold)
+    return packing.without(is_rattler) if is_rattler.any() else packing
 
 
 def on_all_grains(field: np.ndarray, is_rattler: np.ndarray) -> np.ndarray:

@@ -24,7 +24,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.neighbours import Neighbours, find_neighbours
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import largest, net_force
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.relaxation.result import RelaxationResult
 
 Damping = Dashpot | Drag | Undamped
@@ -120,7 +120,7 @@ def relax_damped(
         stop = Stop(allowed_motion, max_steps - steps)
         now = move(now.packing, now.velocity, interaction, damping, time_step, stop)
         steps += now.steps
-        force = net_force(now.packing, find_contacts(now.packing), interaction)
+        force = net_force(now.packing, interaction)
         max_force, max_torque = largest(force)
         converged = max(max_force, max_torque) < tolerance
         if converged or steps >= max_steps:

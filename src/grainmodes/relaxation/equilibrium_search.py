@@ -110,8 +110,8 @@ def _factors_fit(before: EquilibriumState, after: EquilibriumState, tolerance: f
 
 def _with_detached_rattlers(state: EquilibriumState) -> EquilibriumState:
     """The state with its rattlers moved until they touch nothing; the same if none touches."""
-    is_rattler = ~state.backbone_mask
-    if not np.any(is_rattler[state.contacts.i] | is_rattler[state.contacts.j]):
+    is_rattler, contacts = ~state.backbone_mask, state.packing.contacts
+    if not np.any(is_rattler[contacts.i] | is_rattler[contacts.j]):
         return state
     packing = detach_rattlers(state.packing, state.interaction.normal, is_rattler)
     detached = EquilibriumState.from_packing(packing, state.interaction, state)

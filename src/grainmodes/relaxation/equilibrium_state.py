@@ -30,10 +30,9 @@ from numpy.typing import NDArray
 
 from grainmodes.kernels.laws import Interaction
 from grainmodes.linalg.pinned_factor import PinnedFactor
-from grainmodes.packing.contacts import Contacts, rattlers
 from grainmodes.packing.forces import is_frictionless, largest, net_force, tangential_forces
 from grainmodes.packing.jacobian import assemble, stiffness_of
-from grainmodes.packing.state import Packing
+from grainmodes.packing.state import Packing, rattlers
 from grainmodes.relaxation.low_rank_update import BaseFactor, LowRankUpdate
 from grainmodes.relaxation.newton import apply_slip, displace_with_springs
 
@@ -67,7 +66,6 @@ class EquilibriumState:
     """
 
     packing: Packing
-    contacts: Contacts
     backbone_mask: NDArray[np.bool_]
     interaction: Interaction
     reused: ReusedFactor | None = None
@@ -90,10 +88,10 @@ class EquilibriumState:
         Raises:
             PackingError: two grains lie at the same place.
         """
-        slipped, contacts = apply_slip(packing, interaction)
-        backbone_mask = ~rattlers(contacts, packing.n, rattler_threshold(interaction))
-        released = force_released_on_opening(packing, contacts, interaction)
-        state = cls(slipped, contacts, backbone_mask, interaction, released_force=released)
+        backbone_mask = ~rattlers(packing, rattler_threshold(interaction))
+        released = force_released_on_opening(packing, interaction)
+        slipped = apply_slip(packing, interaction)
+        state = cls(slipped, backbone_mask, interaction, released_force=released)
         if before is None:
             return state
         released = max(released, before.released_force)
@@ -139,21 +137,16 @@ class EquilibriumState:
         return self.packing.without(~self.backbone_mask)
 
     @cached_property
-    def backbone_contacts(self) -> Contacts:
-        """The contacts between the grains of `backbone`, in its numbers."""
-        return self.contacts.among(self.backbone_mask)
-
-    @cached_property
     def contact_keys(self) -> NDArray[np.int64]:
-        """One number for every contact of the backbone, ascending; i N + j in the packing."""
-        contacts = self.contacts
+        """The key of every contact of the backbone, ascending, in the numbers of the packing."""
+        contacts = self.packing.contacts
         both = self.backbone_mask[contacts.i] & self.backbone_mask[contacts.j]
-        return (contacts.i.astype(np.int64) * self.packing.n + contacts.j)[both]
+        return contacts.key[both]
 
     @cached_property
     def force(self) -> NDArray[np.float64]:
         """F̃ on every grain of the backbone, (N', k) in k_N d^(3/2)."""
-        return net_force(self.backbone, self.backbone_contacts, self.interaction)
+        return net_force(self.backbone, self.interaction)
 
     @cached_property
     def residual(self) -> float:
@@ -163,12 +156,12 @@ class EquilibriumState:
     @cached_property
     def stiffness(self) -> NDArray[np.float64]:
         """K of the contacts of the backbone, (C, k, k) in k_N d^(1/2)."""
-        return stiffness_of(self.backbone_contacts, self.interaction)
+        return stiffness_of(self.backbone.contacts, self.interaction)
 
     @cached_property
     def matrix(self) -> sparse.csc_array:
         """J of the backbone, (kN', kN') in k_N d^(1/2)."""
-        contacts = self.backbone_contacts
+        contacts = self.backbone.contacts
         return assemble(self.stiffness, contacts.i, contacts.j, self.backbone.n)
 
     @cached_property
@@ -178,7 +171,7 @@ class EquilibriumState:
         Raises:
             FloppyError: the backbone has zero modes beyond the translations.
         """
-        symmetric = self.backbone_contacts.spring_state is None
+        symmetric = self.backbone.contacts.spring_state is None
         return PinnedFactor(self.matrix, symmetric, reuse_ordering_of=self.reuse_ordering_of)
 
     @cached_property
@@ -186,7 +179,7 @@ class EquilibriumState:
         """The reused factors corrected for this J; None if there are none or too much changed."""
         if self.reused is None:
             return None
-        return self.reused.base.updated(self.backbone_contacts, lambda: self.stiffness)
+        return self.reused.base.updated(self.backbone.contacts, lambda: self.stiffness)
 
     @property
     def base_factor(self) -> BaseFactor:
@@ -195,7 +188,7 @@ class EquilibriumState:
         Raises:
             FloppyError: the backbone has zero modes beyond the translations.
         """
-        return BaseFactor(self.factor, self.backbone_contacts, self.stiffness)
+        return BaseFactor(self.factor, self.backbone.contacts, self.stiffness)
 
     @property
     def factors_for_next(self) -> ReusedFactor:
@@ -257,7 +250,7 @@ class EquilibriumState:
         if not self.backbone_mask.all():
             everywhere = np.zeros((self.packing.n, u.shape[1]))
             everywhere[self.backbone_mask] = u
-        packing = displace_with_springs(self.packing, self.contacts, self.interaction, everywhere)
+        packing = displace_with_springs(self.packing, self.interaction, everywhere)
         return EquilibriumState.from_packing(packing, self.interaction, self)
 
 
@@ -269,24 +262,17 @@ def rattler_threshold(interaction: Interaction) -> int:
     return 2 if is_frictionless(interaction) else 1
 
 
-def force_released_on_opening(
-    packing: Packing, contacts: Contacts, interaction: Interaction
-) -> float:
+def force_released_on_opening(packing: Packing, interaction: Interaction) -> float:
     """Largest force, in k_N d^(3/2), that a contact of the history bore when it opened.
 
     It is the tangential force at zero overlap. It is zero where the tangential force ends with the
     normal one, for Hertzian contacts and under Coulomb's condition. A harmonic contact without slip
     releases k_T s at once.
-
-    Args:
-        packing: with its history.
-        contacts: those of the history that are still closed; they may include new ones.
     """
-    history = packing.history
+    contacts, history = packing.contacts, packing.history
     if history is None or len(history.i) == len(contacts.i):
         return 0.0
-    key = history.i.astype(np.int64) * packing.n + history.j
-    opened = ~np.isin(key, contacts.i.astype(np.int64) * packing.n + contacts.j, assume_unique=True)
+    opened = ~np.isin(history.key, contacts.key, assume_unique=True)
     s = history.spring_state[opened]
     overlap = np.full(len(s), OPENING_OVERLAP)
     return float(np.abs(tangential_forces(interaction, overlap, s)).max(initial=0.0))

@@ -25,9 +25,8 @@ from numpy.typing import NDArray
 
 from grainmodes.kernels.fire import FireSettings, fire
 from grainmodes.kernels.laws import Frictionless, Interaction, NormalLaw
-from grainmodes.packing.contacts import rattlers
 from grainmodes.packing.forces import largest, mean_contact_force, net_force
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing, rattlers
 from grainmodes.relaxation.newton import newton
 from grainmodes.relaxation.rattlers import detach_rattlers
 from grainmodes.relaxation.result import RelaxationResult
@@ -144,7 +143,7 @@ def _fire(
 def _polished(packing: Packing, normal: NormalLaw, tolerance: float) -> RelaxationResult | None:
     """Newton's method on the backbone, rattlers detached; None where that finds no balance."""
     interaction = Interaction(normal, Frictionless())
-    is_rattler = rattlers(find_contacts(packing), packing.n, threshold=2)
+    is_rattler = rattlers(packing, threshold=2)
     if is_rattler.all():
         return None
     solved = newton(packing.without(is_rattler), interaction, tolerance)
@@ -153,7 +152,7 @@ def _polished(packing: Packing, normal: NormalLaw, tolerance: float) -> Relaxati
     fraction = packing.fraction.copy()
     fraction[:, ~is_rattler] = solved.packing.fraction
     settled = detach_rattlers(replace(packing, fraction=fraction), normal, is_rattler)
-    force = net_force(settled, find_contacts(settled), interaction)
+    force = net_force(settled, interaction)
     max_force, _ = largest(force)
     if not max_force < tolerance:
         return None
@@ -163,4 +162,4 @@ def _polished(packing: Packing, normal: NormalLaw, tolerance: float) -> Relaxati
 def is_unjammed(packing: Packing, normal: NormalLaw) -> bool:
     """Whether the mean contact force of a packing is too small for it to carry load."""
     interaction = Interaction(normal, Frictionless())
-    return mean_contact_force(find_contacts(packing), interaction) < UNJAMMED_FORCE
+    return mean_contact_force(packing, interaction) < UNJAMMED_FORCE

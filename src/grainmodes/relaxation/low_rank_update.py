@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from grainmodes.linalg.pinned_factor import PinnedFactor
-from grainmodes.packing.contacts import Contacts
+from grainmodes.packing.contacts import Contacts, pairs_of_key
 from grainmodes.packing.forces import SIGNS
 
 CHANGE_THRESHOLD = 0.03
@@ -145,16 +145,11 @@ def _changed_contacts(
     new_stiffness: NDArray[np.float64],
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
     """(i, j, D) of the contacts that changed, D = K₀ − K (c, k, k)."""
-    pairs, place = np.unique(np.concatenate([_keys(old), _keys(new)]), return_inverse=True)
-    change = np.zeros((len(pairs), *new_stiffness.shape[1:]))
+    keys, place = np.unique(np.concatenate([old.key, new.key]), return_inverse=True)
+    change = np.zeros((len(keys), *new_stiffness.shape[1:]))
     change[place[: len(old.i)]] += old_stiffness
     change[place[len(old.i) :]] -= new_stiffness
     threshold = CHANGE_THRESHOLD * np.abs(old_stiffness).max(initial=0.0)
     changed = np.flatnonzero(np.abs(change).max(axis=(1, 2)) > threshold)
-    i, j = np.divmod(pairs[changed], 2**32)
+    i, j = pairs_of_key(keys[changed])
     return i, j, change[changed]
-
-
-def _keys(contacts: Contacts) -> NDArray[np.int64]:
-    """One number for every contact, (C,)."""
-    return contacts.i.astype(np.int64) * 2**32 + contacts.j

@@ -31,19 +31,18 @@ from numpy.typing import NDArray
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.springs import advance_springs, clip_springs
 from grainmodes.linalg.pinned_factor import FloppyError, PinnedFactor
-from grainmodes.packing.contacts import Contacts, History
+from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import is_frictionless, largest, net_force
 from grainmodes.packing.jacobian import jacobian
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.relaxation.backtracking import backtrack
 from grainmodes.relaxation.result import RelaxationResult
 
 
 class _Iterate(NamedTuple):
-    """A packing with its contacts and the net forces F̃ (N, k) of them."""
+    """A packing with its net forces F̃ (N, k)."""
 
     packing: Packing
-    contacts: Contacts
     force: NDArray[np.float64]
 
 
@@ -58,8 +57,7 @@ def newton(
     Raises:
         PackingError: two grains lie at the same place.
     """
-    contacts = find_contacts(packing)
-    now = _Iterate(packing, contacts, net_force(packing, contacts, interaction))
+    now = _Iterate(packing, net_force(packing, interaction))
     iterations = 0
     while iterations < max_iterations:
         iterations += 1
@@ -76,18 +74,18 @@ def newton(
 
 def _newton_step(now: _Iterate, interaction: Interaction) -> _Iterate | None:
     """The Newton step, shortened until max|F̃| falls; None if it never does."""
-    packing, contacts, force = now
-    matrix = jacobian(packing, contacts, interaction)
+    packing, force = now
+    matrix = jacobian(packing, interaction)
     try:
-        u = PinnedFactor(matrix, symmetric=contacts.spring_state is None).solve(force)
+        u = PinnedFactor(matrix, symmetric=packing.contacts.spring_state is None).solve(force)
     except FloppyError:
         return None
     u, residual = u.reshape(packing.n, -1), max(largest(force))
 
     def after(fraction: float) -> _Iterate:
-        displaced = displace_with_springs(packing, contacts, interaction, fraction * u)
-        slipped, touching = apply_slip(displaced, interaction)
-        return _Iterate(slipped, touching, net_force(slipped, touching, interaction))
+        displaced = displace_with_springs(packing, interaction, fraction * u)
+        slipped = apply_slip(displaced, interaction)
+        return _Iterate(slipped, net_force(slipped, interaction))
 
     def improves(trial: _Iterate) -> bool:
         return max(largest(trial.force)) < residual or residual == 0.0
@@ -96,7 +94,7 @@ def _newton_step(now: _Iterate, interaction: Interaction) -> _Iterate | None:
 
 
 def displace_with_springs(
-    packing: Packing, contacts: Contacts, interaction: Interaction, u: NDArray[np.float64]
+    packing: Packing, interaction: Interaction, u: NDArray[np.float64]
 ) -> Packing:
     """The packing after a small displacement u (N, k) in d, its tangential springs advanced.
 
@@ -107,21 +105,20 @@ def displace_with_springs(
     if is_frictionless(interaction):
         return displaced
     rotation = np.zeros(packing.n) if packing.rotation is None else packing.rotation
-    c = contacts
+    c = packing.contacts
     s = advance_springs(interaction, c.normal, c.distance, c.overlap, c.displacement, c.i, c.j, u)
-    history = History(contacts.i, contacts.j, s)
+    history = History(c.i, c.j, s)
     return replace(displaced, rotation=rotation + u[:, 2], history=history)
 
 
-def apply_slip(packing: Packing, interaction: Interaction) -> tuple[Packing, Contacts]:
-    """The packing and its contacts, after each spring has slipped as far as its law requires.
+def apply_slip(packing: Packing, interaction: Interaction) -> Packing:
+    """The packing after each spring has slipped as far as its law requires.
 
     Raises:
         PackingError: two grains lie at the same place.
     """
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     if packing.history is None:
-        return packing, contacts
+        return packing
     s = clip_springs(interaction, contacts.overlap, contacts.displacement)
-    history = History(contacts.i, contacts.j, s)
-    return replace(packing, history=history), replace(contacts, spring_state=s)
+    return packing.with_springs(s)

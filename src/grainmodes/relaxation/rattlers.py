@@ -9,7 +9,7 @@ from grainmodes.kernels.contacts import normal_slope
 from grainmodes.kernels.laws import Frictionless, Interaction, NormalLaw
 from grainmodes.packing.contacts import Contacts
 from grainmodes.packing.forces import net_force
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 
 MAX_MOVES = 100
 """Moves after which a rattler is left where it is: it may be caught between two neighbours."""
@@ -32,10 +32,10 @@ def detach_rattlers(packing: Packing, normal: NormalLaw, is_rattler: NDArray[np.
     """
     interaction = Interaction(normal, Frictionless())
     for _ in range(MAX_MOVES):
-        contacts = find_contacts(packing)
+        contacts = packing.contacts
         if not np.any(is_rattler[contacts.i] | is_rattler[contacts.j]):
             break
-        force = net_force(packing, contacts, interaction)
+        force = net_force(packing, interaction)
         stiffness = _grain_stiffness(contacts, normal, packing.n)
         step = STEP_FACTOR * force / np.where(stiffness > 0.0, stiffness, 1.0)[:, None]
         packing = packing.displaced(np.where(is_rattler[:, None], step, 0.0))

@@ -24,8 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing.contacts import rattlers
-from grainmodes.packing.state import Packing, find_contacts, on_all_grains
+from grainmodes.packing.state import Packing, on_all_grains, rattlers
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.response.mode_sum import mode_sum
 from grainmodes.response.moduli import rigidity
@@ -54,8 +53,9 @@ def nonaffine_field(packing: Packing, interaction: Interaction, threshold: int =
     Raises:
         FloppyError: the backbone has zero modes beyond the translations.
     """
-    gone = _rattlers(packing, threshold)
-    return on_all_grains(rigidity(packing, interaction, threshold).unloaded.displacement, gone)
+    is_rattler = rattlers(packing, threshold)
+    unloaded = rigidity(packing, interaction, threshold).unloaded
+    return on_all_grains(unloaded.displacement, is_rattler)
 
 
 def mode_sum_field(packing: Packing, interaction: Interaction, threshold: int = 2) -> np.ndarray:
@@ -64,11 +64,11 @@ def mode_sum_field(packing: Packing, interaction: Interaction, threshold: int = 
     Raises:
         ValueError: J is not symmetric.
     """
-    gone = _rattlers(packing, threshold)
+    is_rattler = rattlers(packing, threshold)
     modes = packing_spectrum(
         packing, interaction, threshold, choices=SpectrumChoices(method="dense")
     )
-    return on_all_grains(mode_sum(packing, interaction, modes, threshold).displacement, gone)
+    return on_all_grains(mode_sum(packing, interaction, modes, threshold).displacement, is_rattler)
 
 
 def nearest_modes(
@@ -83,13 +83,13 @@ def nearest_modes(
         raise ValueError(
             "expected a symmetric Jacobian for single modes, got one with springs (s other than 0)"
         )
-    gone = _rattlers(packing, threshold)
+    is_rattler = rattlers(packing, threshold)
     of = Eigenproblem.from_packing(packing, interaction, threshold)
     pairs = [_nearest(of, frequency**2) for frequency in frequencies]
     values, vectors = np.array([value for value, _ in pairs]), np.array([r for _, r in pairs])
     return NearestModes(
         np.sqrt(np.abs(values)),
-        np.stack([on_all_grains(vector.reshape(-1, of.k), gone) for vector in vectors]),
+        np.stack([on_all_grains(vector.reshape(-1, of.k), is_rattler) for vector in vectors]),
         np.linalg.norm(of.matrix @ vectors.T - vectors.T * values, axis=0),
     )
 
@@ -99,7 +99,3 @@ def _nearest(of: Eigenproblem, shift: float) -> tuple[float, np.ndarray]:
     (value,), vectors = slice_eigenpairs.nearest_eigenpairs(of.symmetric_shift(), shift, 1)
     vector = vectors[:, 0]
     return value, vector * np.sign(vector[np.argmax(np.abs(vector))])
-
-
-def _rattlers(packing: Packing, threshold: int) -> np.ndarray:
-    return rattlers(find_contacts(packing), packing.n, threshold)

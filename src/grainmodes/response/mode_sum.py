@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing.state import Packing, backbone, find_contacts
+from grainmodes.packing.state import Packing, backbone
 from grainmodes.response.moduli import AffineStep, Moduli
 from grainmodes.spectrum import FullSpectrum
 
@@ -82,5 +82,4 @@ def elastic_modes(eigenvalue: np.ndarray) -> np.ndarray:
 def _step(packing: Packing, interaction: Interaction, threshold: int, loaded: bool) -> AffineStep:
     if packing.history is not None:
         raise ValueError("expected a symmetric Jacobian for a sum over modes, got one with springs")
-    rigid = backbone(packing, threshold)
-    return AffineStep(rigid, find_contacts(rigid), interaction, loaded)
+    return AffineStep(backbone(packing, threshold), interaction, loaded)

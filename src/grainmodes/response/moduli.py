@@ -30,7 +30,7 @@ from grainmodes.linalg.pinned_factor import PinnedFactor
 from grainmodes.packing.contacts import Contacts
 from grainmodes.packing.forces import SIGNS, forces_on_i, is_frictionless, net
 from grainmodes.packing.jacobian import assemble, stiffness_of
-from grainmodes.packing.state import Packing, backbone, find_contacts
+from grainmodes.packing.state import Packing, backbone
 
 
 @dataclass(frozen=True)
@@ -74,14 +74,14 @@ def rigidity(packing: Packing, interaction: Interaction, threshold: int = 2) -> 
         FloppyError: the backbone has zero modes beyond the translations.
     """
     rigid = backbone(packing, threshold)
-    contacts = find_contacts(rigid)
-    loaded = AffineStep(rigid, contacts, interaction, loaded=True)
+    contacts = rigid.contacts
+    loaded = AffineStep(rigid, interaction, loaded=True)
     matrix = assemble(loaded.stiffness, contacts.i, contacts.j, rigid.n)
     factor = PinnedFactor(matrix, symmetric=contacts.spring_state is None)
     response = loaded.moduli(factor.solve(loaded.force))
     if is_frictionless(interaction):
         return Rigidity(response, response)
-    unloaded = AffineStep(rigid, contacts, interaction, loaded=False)
+    unloaded = AffineStep(rigid, interaction, loaded=False)
     return Rigidity(unloaded.moduli(factor.solve(unloaded.force)), response)
 
 
@@ -91,10 +91,9 @@ class AffineStep:
     `force` is Σ a on every grain, (N, k) in k_N d^(3/2) per unit strain.
     """
 
-    def __init__(
-        self, packing: Packing, contacts: Contacts, interaction: Interaction, loaded: bool
-    ):
-        self._packing, self._contacts, self._interaction = packing, contacts, interaction
+    def __init__(self, packing: Packing, interaction: Interaction, loaded: bool):
+        contacts = packing.contacts
+        self._packing, self._interaction = packing, interaction
         self.stiffness = stiffness_of(contacts, interaction)
         self._affine = affine_displacement(contacts, self.stiffness.shape[1], loaded)
         self._rate = np.einsum("cab,cb->ca", self.stiffness, self._affine)
@@ -102,7 +101,7 @@ class AffineStep:
 
     def moduli(self, nonaffine: np.ndarray) -> Moduli:
         """Both parts of dσ/dγ for a non-affine field u that solves J u = `force`, any shape."""
-        contacts, area = self._contacts, self._packing.box_length**2
+        contacts, area = self._packing.contacts, self._packing.box_length**2
         u = nonaffine.reshape(self._packing.n, -1).copy()
         u[:, :2] -= u[:, :2].mean(axis=0)
         branch = contacts.normal * contacts.distance[:, None]

@@ -21,7 +21,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.linalg.pinned_factor import PinnedFactor
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 
 REAL = 1e-9
 """|Im λ'| up to which an eigenvalue counts as real, k_N d^(1/2)/m."""
@@ -42,7 +42,7 @@ def eigenvalues(packing: Packing, interaction: Interaction) -> np.ndarray:
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
-    matrix = jacobian(packing, find_contacts(packing), interaction)
+    matrix = jacobian(packing, interaction)
     weighted = mass_weighted_jacobian(matrix, packing.mass).toarray()
     return scipy.linalg.eigvals(weighted, overwrite_a=True)
 

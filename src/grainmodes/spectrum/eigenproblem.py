@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from grainmodes.kernels.laws import Interaction
 from grainmodes.linalg.symmetric_shift import SymmetricShift
 from grainmodes.packing.jacobian import jacobian
-from grainmodes.packing.state import Packing, backbone, find_contacts
+from grainmodes.packing.state import Packing, backbone
 
 Numbers = NDArray[np.inexact[Any]]
 """float64 where J is symmetric, otherwise complex128."""
@@ -54,8 +54,8 @@ class Eigenproblem:
             PackingError: two grains lie at the same place.
         """
         grains = packing if keep_rattlers else backbone(packing, threshold)
-        contacts = find_contacts(grains)
-        matrix = jacobian(grains, contacts, interaction)
+        contacts = grains.contacts
+        matrix = jacobian(grains, interaction)
         k = matrix.shape[0] // max(grains.n, 1) if grains.n else 3
         return cls(matrix, k, symmetric=contacts.spring_state is None)
 

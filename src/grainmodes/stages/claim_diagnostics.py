@@ -26,7 +26,7 @@ from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.hessian import effective_hessian
 from grainmodes.packing.jacobian import jacobian
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.compression.frictional_compression import frictional_compression
@@ -145,9 +145,8 @@ def translational_rigidity(packing: Packing, interaction: Interaction, threshold
 
 def hessian_difference(packing: Packing, interaction: Interaction, stiffness: str) -> float:
     """max|H − J| / max|J| over the entries."""
-    contacts = find_contacts(packing)
-    matrix = jacobian(packing, contacts, interaction)
-    difference = effective_hessian(packing, contacts, interaction, stiffness) - matrix
+    matrix = jacobian(packing, interaction)
+    difference = effective_hessian(packing, interaction, stiffness) - matrix
     return float(abs(difference).max() / abs(matrix).max())
 
 

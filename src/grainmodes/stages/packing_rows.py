@@ -8,9 +8,9 @@ import numpy as np
 
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Frictionless, Interaction, NormalLaw
-from grainmodes.packing.contacts import Contacts, History, rattlers
+from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import largest, mean_contact_force, net_force, stress
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing, backbone
 
 MIN_LOAD_RATIO = 1e3
 """Least mean contact force of a jammed packing, relative to the largest net force on a grain."""
@@ -19,19 +19,16 @@ MIN_LOAD_RATIO = 1e3
 def packing_row(packing: Packing, normal: NormalLaw) -> dict[str, object]:
     """The row of a packing at rest, without friction."""
     interaction = Interaction(normal, Frictionless())
-    contacts = find_contacts(packing)
-    force, _ = largest(net_force(packing, contacts, interaction))
-    is_rattler = rattlers(contacts, packing.n, threshold=2)
-    load_bearing = ~(is_rattler[contacts.i] | is_rattler[contacts.j])
-    grains = packing.n - int(is_rattler.sum())
+    contacts, rigid = packing.contacts, backbone(packing, threshold=2)
+    force, _ = largest(net_force(packing, interaction))
     return grain_columns(packing) | {
         "position": packing.position,
         "contact_i": contacts.i,
         "contact_j": contacts.j,
-        "pressure": -float(np.trace(stress(packing, contacts, interaction))) / 2.0,
-        "contact_number": 2.0 * load_bearing.sum() / grains if grains else 0.0,
-        "rattler_count": packing.n - grains,
-        "jammed": is_jammed(packing, contacts, interaction, force),
+        "pressure": -float(np.trace(stress(packing, interaction))) / 2.0,
+        "contact_number": 2.0 * len(rigid.contacts.i) / rigid.n if rigid.n else 0.0,
+        "rattler_count": packing.n - rigid.n,
+        "jammed": is_jammed(packing, interaction, force),
         "max_force": force,
     }
 
@@ -47,20 +44,16 @@ def grain_columns(packing: Packing) -> dict[str, object]:
     }
 
 
-def is_jammed(
-    packing: Packing, contacts: Contacts, interaction: Interaction, max_force: float
-) -> bool:
+def is_jammed(packing: Packing, interaction: Interaction, max_force: float) -> bool:
     """Whether a rigid backbone carries the load.
 
     The N' grains that are not rattlers must have at least the 2N' − 1 contacts of an isostatic
     packing under pressure, and contact forces far above `max_force`, the largest net force that
     the relaxation left on a grain.
     """
-    is_rattler = rattlers(contacts, packing.n, threshold=2)
-    load_bearing = int(np.count_nonzero(~(is_rattler[contacts.i] | is_rattler[contacts.j])))
-    grains = packing.n - int(is_rattler.sum())
-    loaded = mean_contact_force(contacts, interaction) > MIN_LOAD_RATIO * max_force
-    return grains > 0 and load_bearing >= 2 * grains - 1 and loaded
+    rigid = backbone(packing, threshold=2)
+    loaded = mean_contact_force(packing, interaction) > MIN_LOAD_RATIO * max_force
+    return rigid.n > 0 and len(rigid.contacts.i) >= 2 * rigid.n - 1 and loaded
 
 
 def packing_in_row(block: Block, number: int) -> Packing:

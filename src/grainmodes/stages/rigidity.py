@@ -7,7 +7,6 @@ from dataclasses import asdict
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import largest, net_force
-from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.response.moduli import Moduli, rigidity
 from grainmodes.stages.rows import response_block
@@ -20,7 +19,7 @@ def rigidity_block(packings: Block, law: ContactLaw, rattlers: Rattlers) -> Bloc
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, interaction)
-        force = largest(net_force(packing, find_contacts(packing), interaction))
+        force = largest(net_force(packing, interaction))
         row = {"jammed": jammed, "converged": True, "max_force": force[0], "max_torque": force[1]}
         if not jammed:
             return row | dict.fromkeys([*_moduli_names(""), *_moduli_names("_loaded")], 0.0)

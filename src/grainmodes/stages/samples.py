@@ -7,7 +7,7 @@ from dataclasses import asdict
 from grainmodes.dataset.files import Block, BlockError
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import largest, mean_contact_force, net_force
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.compression import Compression
 from grainmodes.stages.packing_rows import is_jammed, packing_in_row
 
@@ -26,16 +26,15 @@ def jammed_packing(block: Block, number: int, interaction: Interaction) -> tuple
     if not block.variables["converged"][number]:
         raise ArithmeticError("the packing did not reach its force balance")
     packing = packing_in_row(block, number)
-    contacts = find_contacts(packing)
-    force, _ = largest(net_force(packing, contacts, interaction))
-    mean = mean_contact_force(contacts, interaction)
+    force, _ = largest(net_force(packing, interaction))
+    mean = mean_contact_force(packing, interaction)
     limit = max(MAX_FORCE_RATIO * mean, force_tolerance(block))
     if not force <= limit:
         raise BlockError(
             f"packing of seed {seed_of(block, number)} is not in force balance: expected "
             f"max|F| <= {limit:.1e} at a mean contact force of {mean:.2e}, got {force:.2e}"
         )
-    return packing, is_jammed(packing, contacts, interaction, force)
+    return packing, is_jammed(packing, interaction, force)
 
 
 def first_sample(block: Block) -> Block:

@@ -21,7 +21,7 @@ from grainmodes.dataset.files import Block
 from grainmodes.dataset.padding import stack_padded
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.hessian import effective_hessian
-from grainmodes.packing.state import Packing, backbone, find_contacts
+from grainmodes.packing.state import Packing, backbone
 from grainmodes.parameters.factors import FACTORISATIONS
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.spectra import BINNED, SPECTRUM_METHODS, SpectrumChoices
@@ -104,7 +104,7 @@ def hessian_block(
         for stiffness, name in (("tangent", "hessian"), ("printed", "hessian_printed")):
             count = np.zeros(len(edges) - 1, dtype=int)
             if jammed:
-                matrix = effective_hessian(grains, find_contacts(grains), interaction, stiffness)
+                matrix = effective_hessian(grains, interaction, stiffness)
                 eigenproblem = Eigenproblem(matrix, matrix.shape[0] // grains.n, symmetric=True)
                 count = average_in_bins(eigenproblem, edges, False, choices).count
             row[f"bin_count_{name}"] = count

@@ -9,7 +9,6 @@ from grainmodes.kernels.energies import contact_energies
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.contacts import Contacts
 from grainmodes.packing.forces import energy, forces_on_i
-from grainmodes.packing.state import find_contacts
 
 OVERLAPS = np.array([1e-6, 0.01, 0.1, 0.3])
 STEP = 1e-6
@@ -58,11 +57,11 @@ def test_the_tangential_force_is_the_slope_by_the_displacement(law, part):
 
 def test_the_energy_of_a_packing_is_that_of_its_contacts():
     packing, interaction = crowd(2, slip=0.2), Interaction.from_law(LAWS[0])
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     one_by_one = [
         contact_energies(
             interaction, contacts.overlap[c : c + 1], contacts.displacement[c : c + 1]
         )[0]
         for c in range(len(contacts.i))
     ]
-    assert energy(contacts, interaction) == pytest.approx(sum(one_by_one), rel=1e-14)
+    assert energy(packing, interaction) == pytest.approx(sum(one_by_one), rel=1e-14)

@@ -23,7 +23,7 @@ from grainmodes.kernels.laws import (
 )
 from grainmodes.packing.forces import forces_on_i, net_force
 from grainmodes.packing.jacobian import jacobian
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import step_strain
@@ -90,12 +90,12 @@ each_slip = pytest.mark.parametrize("slip", [0.0, 1.0])
 
 def differences(packing: Packing, interaction: Interaction, h: float = 1e-6) -> np.ndarray:
     """−∂F̃/∂q, dense (3N, 3N), by central differences of the net forces."""
-    contacts, columns = find_contacts(packing), []
+    columns = []
     for u in np.eye(3 * packing.n).reshape(-1, packing.n, 3):
         ahead, behind = (
-            displace_with_springs(packing, contacts, interaction, way * h * u) for way in (1, -1)
+            displace_with_springs(packing, interaction, way * h * u) for way in (1, -1)
         )
-        forces = (net_force(each, find_contacts(each), interaction) for each in (ahead, behind))
+        forces = (net_force(each, interaction) for each in (ahead, behind))
         columns.append(-np.subtract(*forces).ravel() / (2 * h))
     return np.array(columns).T
 
@@ -113,7 +113,7 @@ def balanced(interaction: Interaction, strain: float) -> Packing:
 @each_slip
 def test_its_forces_are_those_written_down(name, slip):
     interaction, formula = OUTSIDE[name]
-    contacts = find_contacts(crowd(51, slip=slip))
+    contacts = crowd(51, slip=slip).contacts
     f_n, f_t = formula(contacts.overlap, contacts.displacement)
     written = f_n[:, None] * contacts.normal + f_t[:, None] * contacts.tangent
     np.testing.assert_allclose(forces_on_i(contacts, interaction), np.c_[written, f_t], rtol=1e-12)
@@ -123,7 +123,7 @@ def test_its_forces_are_those_written_down(name, slip):
 @each_slip
 def test_its_jacobian_is_central_differences_of_the_forces(name, slip):
     interaction, packing = OUTSIDE[name][0], crowd(52, strain=0.2, slip=slip)
-    matrix = jacobian(packing, find_contacts(packing), interaction).toarray()
+    matrix = jacobian(packing, interaction).toarray()
     np.testing.assert_allclose(matrix, differences(packing, interaction), atol=2e-9)
     assert (np.abs(matrix - matrix.T).max() > 1e-3) == (slip > 0.0)
 

@@ -7,7 +7,6 @@ import exact
 from example_packings import quenched
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import net_force
-from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.spectrum import Eigenproblem, dense
@@ -157,7 +156,7 @@ def test_seeds():
 
 def test_forces_in_extended_precision_are_the_forces():
     beside = quenched(16, 0.9).displaced(np.random.default_rng(0).normal(0.0, 1e-3, (16, 2)))
-    double = net_force(beside, find_contacts(beside), precision.SMOOTH)
+    double = net_force(beside, precision.SMOOTH)
     assert 0.0 < np.abs(loops.exact_forces(beside) - double).max() < 1e-15
 
 

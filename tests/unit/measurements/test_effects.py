@@ -17,7 +17,7 @@ from grainmodes.packing import forces, jacobian
 from grainmodes.packing.contacts import Contacts, History
 from grainmodes.packing.forces import net_force
 from grainmodes.packing.hessian import effective_hessian
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import SpectrumChoices
@@ -103,7 +103,7 @@ def test_without_friction_nothing_tangential_is_touched(monkeypatch):
     law, protocol = Hertz(1.0), Compression(phi_step=1e-3)
     start = compress_along_grid(place_at_random(16, 1, law, protocol), 0.9, law, protocol)
     packing = compress_to(start, 0.9, law, protocol).packing
-    assert net_force(packing, find_contacts(packing), NO_FRICTION).shape == (16, 2)
+    assert net_force(packing, NO_FRICTION).shape == (16, 2)
     assert rigidity(packing, NO_FRICTION).unloaded.displacement.shape[1] == 2
     assert step_strain(packing, NO_FRICTION, StepStrain()).converged
     assert Eigenproblem.from_packing(packing, NO_FRICTION).k == 2
@@ -119,15 +119,15 @@ def test_springs_never_loaded_are_not_stored_and_take_the_symmetric_way(monkeypa
     general = ((pinned_factor, "_GeneralFactor"), (scipy.linalg, "eig"), (scipy.linalg, "eigvals"))
     refuse(monkeypatch, (History, "__init__"), *general)
     monkeypatch.setattr(Contacts, "displacement", property(None))
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     assert contacts.spring_state is None
-    assert net_force(packing, contacts, FRICTION).shape == (36, 3)
+    assert net_force(packing, FRICTION).shape == (36, 3)
     assert np.isfinite(rigidity(packing, FRICTION).loaded.g)
     eigenproblem = Eigenproblem.from_packing(packing, FRICTION)
     assert eigenproblem.symmetric and eigenproblem.k == 3
     for modes in (False, True):
         assert full_spectrum(eigenproblem, modes).eigenvalue.dtype == float
-    assert effective_hessian(packing, contacts, FRICTION).shape == (108, 108)
+    assert effective_hessian(packing, FRICTION).shape == (108, 108)
 
 
 def test_a_packing_is_its_places_and_sizes():

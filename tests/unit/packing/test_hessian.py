@@ -8,17 +8,16 @@ from example_packings import ELASTIC, FRICTIONLESS, LAWS, crowd, law_name, pairs
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.hessian import STIFFNESSES, effective_hessian
 from grainmodes.packing.jacobian import jacobian
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 
 
 def dense(packing: Packing, law: ContactLaw, stiffness: str = "tangent") -> np.ndarray:
-    contacts = find_contacts(packing)
-    return effective_hessian(packing, contacts, Interaction.from_law(law), stiffness).toarray()
+    return effective_hessian(packing, Interaction.from_law(law), stiffness).toarray()
 
 
 def dynamical(packing: Packing, law: ContactLaw) -> np.ndarray:
-    return jacobian(packing, find_contacts(packing), Interaction.from_law(law)).toarray()
+    return jacobian(packing, Interaction.from_law(law)).toarray()
 
 
 @pytest.mark.parametrize(

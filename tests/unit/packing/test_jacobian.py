@@ -22,7 +22,7 @@ from example_packings import (
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.contacts import History
 from grainmodes.packing.jacobian import assemble, jacobian, stiffness_of
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 
 STRAINS = (-0.5, -0.3, 0.0, 0.3, 0.5)
@@ -30,7 +30,7 @@ COULOMB = [law for law in LAWS if law.friction_coefficient]
 
 
 def dense(packing: Packing, law) -> np.ndarray:
-    return jacobian(packing, find_contacts(packing), Interaction.from_law(law)).toarray()
+    return jacobian(packing, Interaction.from_law(law)).toarray()
 
 
 def close(matrix: np.ndarray, twin: np.ndarray, accuracy: float) -> None:
@@ -69,7 +69,7 @@ def test_frictionless_against_central_differences(law, strain):
 @pytest.mark.parametrize("law", COULOMB, ids=law_name)
 def test_both_sides_of_the_coulomb_threshold(law, ratio):
     packing = crowd(23, strain=0.3)
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     s = ratio * naive.threshold(law, contacts.overlap)
     packing = replace(packing, history=History(contacts.i, contacts.j, s))
     pairs = contacts_and_pairs(packing)[1]
@@ -132,14 +132,14 @@ def test_translations_cost_nothing_and_no_force_is_left_over(law, slip):
 
 def test_slip_seen_only_through_the_history():
     packing = crowd(28)
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     zero = History(contacts.i, contacts.j, np.zeros(len(contacts.i)))
     still = replace(packing, history=zero)
     np.testing.assert_array_equal(dense(packing, LAWS[0]), dense(still, LAWS[0]))
 
 
 def test_stiffness_has_the_size_of_the_law():
-    contacts = find_contacts(crowd(29))
+    contacts = crowd(29).contacts
     size = len(contacts.i)
     assert stiffness_of(contacts, elastic("hertz", 0.0)).shape == (size, 2, 2)
     assert stiffness_of(contacts, elastic("hertz", 1e-8)).shape == (size, 3, 3)

@@ -11,7 +11,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.springs import advance_by_slide, clip_springs
 from grainmodes.packing.forces import forces_on_i
 from grainmodes.packing.jacobian import jacobian
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.dynamics import move
 
@@ -51,12 +51,10 @@ def test_harmonic_contacts_cannot_tell_what_is_remembered(tangential):
     by_s = ContactLaw("harmonic", tangential, 0.3, coefficient)
     by_force = ContactLaw("harmonic", f"{tangential}_force", 0.3, coefficient)
     packing = crowd(81, slip=1.2)
-    one, other = (
-        (find_contacts(keeping(law, packing)), Interaction.from_law(law))
-        for law in (by_s, by_force)
-    )
-    np.testing.assert_allclose(forces_on_i(*other), forces_on_i(*one), rtol=1e-14)
-    matrices = [jacobian(packing, *state).toarray() for state in (one, other)]
+    states = [(keeping(law, packing), Interaction.from_law(law)) for law in (by_s, by_force)]
+    one, other = (forces_on_i(state.contacts, interaction) for state, interaction in states)
+    np.testing.assert_allclose(other, one, rtol=1e-14)
+    matrices = [jacobian(state, interaction).toarray() for state, interaction in states]
     np.testing.assert_allclose(matrices[1], matrices[0], atol=1e-14)
 
 
@@ -74,19 +72,19 @@ def spun(law: ContactLaw, steps: int):
 @pytest.mark.parametrize("law", FORCE_LAWS, ids=law_name)
 def test_a_force_is_forgotten_when_a_contact_opens_and_starts_anew(law):
     interaction, touching = Interaction.from_law(law), spun(law, 20)
-    assert abs(find_contacts(touching.packing).displacement[0]) > 1e-5
+    assert abs(touching.packing.contacts.displacement[0]) > 1e-5
     apart = move(
         touching.packing, touching.velocity, interaction, Undamped(), 1e-2, Stop(0.0, 1500)
     )
-    assert len(find_contacts(apart.packing).i) == len(apart.packing.history.i) == 0
+    assert len(apart.packing.contacts.i) == len(apart.packing.history.i) == 0
     gap = np.subtract(*apart.packing.position)
     towards = 0.2 * gap / np.hypot(*gap)
     back = np.array([[*-towards, 0.01], [*towards, 0.01]])
     again, steps = apart.packing, 0
-    while not len(find_contacts(again).i):
+    while not len(again.contacts.i):
         before, steps = again, steps + 1
         again = move(before, back, interaction, Undamped(), 1e-2, Stop(0.0, 1)).packing
-    contacts = find_contacts(again)
+    contacts = again.contacts
     h, overlap = contacts.displacement[0], contacts.overlap[0]
     assert steps > 1
     assert 0.0 <= h <= naive.remembered(law, overlap, 0.02 * 1e-2) * (1 + 1e-6)
@@ -100,7 +98,7 @@ def test_a_motion_goes_on_where_it_stopped(law):
     half = move(crowd(82), start, interaction, Undamped(), 1e-2, Stop(0.0, 100))
     rest = move(half.packing, half.velocity, interaction, Undamped(), 1e-2, Stop(0.0, 100))
     np.testing.assert_allclose(rest.velocity, whole.velocity, atol=1e-11)
-    one, other = (find_contacts(m.packing) for m in (whole, rest))
+    one, other = (m.packing.contacts for m in (whole, rest))
     np.testing.assert_array_equal(other.i, one.i)
     np.testing.assert_allclose(other.displacement, one.displacement, atol=1e-11)
     assert np.abs(one.displacement).max() > 1e-4

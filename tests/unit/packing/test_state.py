@@ -1,6 +1,8 @@
 """The state of a packing: exact fractions, contacts and rattlers against brute force."""
 
-from dataclasses import replace
+import pickle
+from copy import copy
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -9,8 +11,9 @@ from hypothesis import strategies as st
 
 import naive
 from example_packings import ELASTIC, contacts_and_pairs, crowd, few, pairs_of, reference
-from grainmodes.packing.contacts import History, rattlers
-from grainmodes.packing.state import Packing, PackingError, find_contacts
+from grainmodes.packing import state
+from grainmodes.packing.contacts import History
+from grainmodes.packing.state import Packing, PackingError, find_contacts, rattlers
 
 UNIT = 2.0**-64
 
@@ -33,7 +36,7 @@ def test_contacts_are_those_of_brute_force(seed, strain, slip):
 
 
 def test_contacts_are_sorted_with_i_above_j():
-    contacts = find_contacts(reference(ELASTIC[3])[1])
+    contacts = reference(ELASTIC[3])[1].contacts
     assert np.all(contacts.i > contacts.j)
     keys = contacts.i.astype(int) * 64 + contacts.j
     assert np.all(np.diff(keys) > 0)
@@ -44,8 +47,8 @@ def test_contacts_are_sorted_with_i_above_j():
 @pytest.mark.parametrize("name", ELASTIC)
 def test_reference_packings_have_the_contacts_they_say(name):
     data, packing = reference(name)
-    assert len(find_contacts(packing).i) == data.contacts
-    assert not rattlers(find_contacts(packing), packing.n, 2).any()
+    assert len(packing.contacts.i) == data.contacts
+    assert not rattlers(packing, 2).any()
 
 
 @pytest.mark.parametrize("strain", [-0.5, 0.0, 0.2])
@@ -56,7 +59,7 @@ def test_positions_survive_the_round_trip(strain):
         packing.position, packing.diameter, packing.box_length, strain, packing.mass
     )
     np.testing.assert_allclose(again.position, packing.position, atol=1e-14)
-    before, after = find_contacts(packing), find_contacts(again)
+    before, after = packing.contacts, again.contacts
     np.testing.assert_array_equal(before.i, after.i)
     np.testing.assert_allclose(before.overlap, after.overlap, atol=1e-14)
 
@@ -68,9 +71,7 @@ def test_a_history_may_come_in_any_order():
     again = Packing.from_positions(
         packing.position, packing.diameter, packing.box_length, 0.0, packing.mass, swapped
     )
-    np.testing.assert_array_equal(
-        find_contacts(again).displacement, find_contacts(packing).displacement
-    )
+    np.testing.assert_array_equal(again.contacts.displacement, packing.contacts.displacement)
 
 
 def test_images_of_a_grain_are_one_grain():
@@ -121,15 +122,15 @@ def test_mass_defaults_to_the_square_of_the_diameter():
 
 def test_slip_follows_its_contact_and_new_contacts_have_none():
     packing = crowd(4, slip=0.3)
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     h = packing.history
     fewer = replace(packing, history=History(h.i[1:], h.j[1:], h.spring_state[1:]))
-    s = find_contacts(fewer).spring_state
+    s = fewer.contacts.spring_state
     assert s[0] == 0.0
     np.testing.assert_array_equal(s[1:], contacts.spring_state[1:])
     nothing = np.zeros(0, np.int32)
     empty = replace(packing, history=History(nothing, nothing, np.zeros(0)))
-    assert np.all(find_contacts(empty).spring_state == 0.0)
+    assert np.all(empty.contacts.spring_state == 0.0)
 
 
 @few(30)
@@ -137,16 +138,15 @@ def test_slip_follows_its_contact_and_new_contacts_have_none():
 def test_rattlers_are_those_of_brute_force(seed, n, threshold):
     draws = np.random.default_rng(seed)
     packing = Packing.from_positions(draws.uniform(0, 4, (n, 2)), np.ones(n), 4.0)
-    contacts, pairs = contacts_and_pairs(packing)
-    found = set(np.flatnonzero(rattlers(contacts, n, threshold)).tolist())
-    assert found == naive.rattlers(pairs, n, threshold)
+    found = set(np.flatnonzero(rattlers(packing, threshold)).tolist())
+    assert found == naive.rattlers(pairs_of(packing), n, threshold)
 
 
 def test_a_chain_unravels_to_the_last_grain():
     position = [[0.9 * k, 1.0] for k in range(8)]
     chain = Packing.from_positions(position, np.ones(8), 20.0)
-    assert rattlers(find_contacts(chain), 8, 1).all()
-    assert not rattlers(find_contacts(chain), 8, 0).any()
+    assert rattlers(chain, 1).all()
+    assert not rattlers(chain, 0).any()
 
 
 def test_grains_taken_out_are_really_out():
@@ -157,18 +157,18 @@ def test_grains_taken_out_are_really_out():
     np.testing.assert_array_equal(left.mass, packing.mass[~mask])
     kept = np.flatnonzero(~mask)
     expected = [(p.i, p.j) for p in pairs_of(packing) if not (mask[p.i] or mask[p.j])]
-    contacts = find_contacts(left)
+    contacts = left.contacts
     assert list(zip(kept[contacts.i], kept[contacts.j], strict=True)) == expected
 
 
 def test_nothing_touches_at_exactly_the_contact_distance():
-    assert len(find_contacts(two(1.0)).i) == 0
-    assert len(find_contacts(two(1.0 - 1e-12)).i) == 1
+    assert len(two(1.0).contacts.i) == 0
+    assert len(two(1.0 - 1e-12).contacts.i) == 1
 
 
 def test_two_grains_in_one_place_are_refused_by_number():
     with pytest.raises(PackingError, match="grains 1 and 0"):
-        find_contacts(two(0.0))
+        _ = two(0.0).contacts
 
 
 @pytest.mark.parametrize(
@@ -195,7 +195,7 @@ def test_what_is_no_packing_is_refused(change, named):
 def test_springs_keep_their_contacts_when_grains_are_taken_out():
     packing = crowd(0, slip=0.2)
     gone = np.isin(np.arange(packing.n), [0, 3, 7])
-    before, after = find_contacts(packing), find_contacts(packing.without(gone))
+    before, after = packing.contacts, packing.without(gone).contacts
     held = ~(gone[before.i] | gone[before.j])
     number = np.cumsum(~gone) - 1
     np.testing.assert_array_equal(number[before.i[held]], after.i)
@@ -213,4 +213,33 @@ def test_a_small_sheared_box_is_refused_or_right(strain):
         packing = Packing.from_positions(position, np.ones(2), 2.05, strain)
     except PackingError:
         return
-    assert len(find_contacts(packing).i) == len(pairs_of(packing)) == 1
+    assert len(packing.contacts.i) == len(pairs_of(packing)) == 1
+
+
+def test_contacts_are_found_once_and_follow_every_change(monkeypatch):
+    packing, calls = crowd(0, slip=0.2).without_contacts(), []
+    monkeypatch.setattr(state, "find_contacts", lambda one: calls.append(one) or find_contacts(one))
+    assert packing.contacts is packing.contacts and len(calls) == 1
+    wider, smaller = packing.at(0.5 * packing.phi), packing.without(np.arange(packing.n) == 3)
+    assert len(wider.contacts.i) < len(smaller.contacts.i) < len(packing.contacts.i)
+    assert len(calls) == 2  # a smaller packing takes the contacts along
+    for copied in (replace(packing), pickle.loads(pickle.dumps(packing)), copy(packing)):
+        assert "contacts" not in vars(copied)
+    assert len(pickle.dumps(packing)) == len(pickle.dumps(packing.without_contacts()))
+
+
+@few(20)
+@given(seed=st.integers(0, 10**6), strain=st.floats(-0.5, 0.5), slip=st.sampled_from([0.0, 0.3]))
+def test_contacts_taken_along_are_those_found_anew_to_the_last_bit(seed, strain, slip):
+    packing = crowd(seed, strain=strain, slip=slip)
+    contacts = packing.contacts
+    smaller = packing.without(np.random.default_rng(seed).random(packing.n) < 0.3)
+    loaded = packing.with_springs(np.arange(1.0, 1.0 + len(contacts.i)))
+    for changed in (smaller, loaded):
+        anew = changed.without_contacts().contacts
+        for field in fields(contacts):
+            carried, found = getattr(changed.contacts, field.name), getattr(anew, field.name)
+            assert (carried is None) == (found is None)
+            if found is not None:
+                np.testing.assert_array_equal(carried, found)
+                assert carried.dtype == found.dtype

@@ -13,9 +13,8 @@ from grainmodes.kernels.permutations import is_odd
 from grainmodes.linalg.factorisation import ZeroPivotError
 from grainmodes.linalg.pinned_factor import PinnedFactor
 from grainmodes.linalg.superlu import SuperLU
-from grainmodes.packing.contacts import rattlers
 from grainmodes.packing.forces import largest, net_force
-from grainmodes.packing.state import find_contacts, nonaffine_motion
+from grainmodes.packing.state import nonaffine_motion, rattlers
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
@@ -53,9 +52,9 @@ def sheared(steps: int, size: float = 1e-4, interaction=B, name: str = PACKING) 
 def test_a_balance_is_one_and_its_loose_grains_touch_nothing(law):
     interaction = Interaction.from_law(law)
     now = sheared(3, size=1e-6, interaction=interaction, name=f"{law.normal}_n64_phi0.860_seed2")
-    contacts = find_contacts(now.packing)
-    assert max(largest(net_force(now.packing, contacts, interaction))) < 1e-14
-    loose = rattlers(contacts, now.packing.n, 1 if law.frictional else 2)
+    contacts = now.packing.contacts
+    assert max(largest(net_force(now.packing, interaction))) < 1e-14
+    loose = rattlers(now.packing, 1 if law.frictional else 2)
     np.testing.assert_array_equal(now.backbone_mask, ~loose)
     assert not np.any(loose[contacts.i] | loose[contacts.j])
 
@@ -66,7 +65,7 @@ def test_a_loose_grain_pushed_against_the_others_is_let_go():
         quenched(256, 0.86),
         Interaction.from_law(ContactLaw("hertz", "elastic", 1.0)),
     )
-    loose = np.flatnonzero(rattlers(find_contacts(packing), packing.n, 1))[0]
+    loose = np.flatnonzero(rattlers(packing, 1))[0]
     apart = packing.position - packing.position[loose]
     apart -= packing.box_length * np.round(apart / packing.box_length)
     gap = np.hypot(*apart.T) - 0.5 * (packing.diameter + packing.diameter[loose])
@@ -75,9 +74,9 @@ def test_a_loose_grain_pushed_against_the_others_is_let_go():
     push = np.zeros((packing.n, 2))
     push[loose] = apart[nearest] / np.hypot(*apart[nearest]) * (gap[nearest] + 1e-4)
     pushed = packing.displaced(push)
-    assert loose in np.concatenate([find_contacts(pushed).i, find_contacts(pushed).j])
+    assert loose in np.concatenate([pushed.contacts.i, pushed.contacts.j])
     found = find_equilibrium(pushed, interaction, 1e-14)
-    contacts = find_contacts(found.packing)
+    contacts = found.packing.contacts
     assert loose not in np.concatenate([contacts.i, contacts.j])
     moved = nonaffine_motion(packing, found.packing)
     assert np.abs(np.delete(moved, loose, axis=0)).max() < 1e-9
@@ -112,13 +111,13 @@ def test_factors_of_another_matrix_are_not_believed():
 def test_a_contact_lost_under_load_is_noticed():
     """Only the harmonic spring without slip still bears a force when it opens."""
     packing = crowd(5, slip=0.2)
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     apart = packing.at(0.5 * packing.phi)
     s = np.abs(contacts.displacement).max()
     for law, force in ((LAWS[3], 0.3 * s), (LAWS[0], 0.0), (LAWS[1], 0.0), (LAWS[5], 0.0)):
-        found = force_released_on_opening(apart, find_contacts(apart), Interaction.from_law(law))
+        found = force_released_on_opening(apart, Interaction.from_law(law))
         assert found == pytest.approx(force, rel=1e-12, abs=1e-30), law
-    assert force_released_on_opening(packing, contacts, Interaction.from_law(LAWS[3])) == 0.0
+    assert force_released_on_opening(packing, Interaction.from_law(LAWS[3])) == 0.0
 
 
 def negative_eigenvalues(state: EquilibriumState) -> int:

@@ -19,7 +19,7 @@ from grainmodes.kernels.damping import Dashpot, Drag, Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import largest, net_force
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.dynamics import move
 from grainmodes.relaxation.frictionless import relax_fire, relax_fire_large_steps, relax_fire_newton
@@ -43,7 +43,7 @@ def shaken(packing: Packing, size: float) -> Packing:
 
 def rest(packing: Packing, normal: str) -> float:
     """max|F| without friction."""
-    return largest(net_force(packing, find_contacts(packing), elastic(normal, 0.0)))[0]
+    return largest(net_force(packing, elastic(normal, 0.0)))[0]
 
 
 @pytest.mark.parametrize("strain", [0.0, 0.3])
@@ -126,7 +126,7 @@ def test_rattlers_are_moved_out_of_the_way():
     )
     relaxed = relax_fire_newton(crowded, NORMAL["hertz"], 1e-14, PATIENT)
     assert relaxed.converged and rest(relaxed.packing, "hertz") < 1e-14
-    assert packing.n not in find_contacts(relaxed.packing).i
+    assert packing.n not in relaxed.packing.contacts.i
 
 
 @pytest.mark.parametrize(("name", "kt"), every_kt_once((0.0, 1e-8, 1e-2, 10.0)))
@@ -146,10 +146,10 @@ def test_newton_never_ends_worse_than_it_began(kt):
         packing = crowd(seed, slip=0.2 if kt else 0.0)
         relaxed = newton(packing, interaction, 1e-14, 3)
         lost += not relaxed.converged
-        force = largest(net_force(relaxed.packing, find_contacts(relaxed.packing), interaction))
+        force = largest(net_force(relaxed.packing, interaction))
         assert (relaxed.max_force, relaxed.max_torque) == force
         assert relaxed.converged == (max(force) < 1e-14)
-        assert max(force) <= max(largest(net_force(packing, find_contacts(packing), interaction)))
+        assert max(force) <= max(largest(net_force(packing, interaction)))
     assert lost > 0
 
 
@@ -162,23 +162,23 @@ def test_newton_gives_up_on_grains_that_touch_nothing():
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
 def test_springs_slip_where_their_law_does_not_hold_them(law):
     packing = crowd(40, slip=4.0)
-    before = find_contacts(packing)
-    after, contacts = apply_slip(packing, Interaction.from_law(law))
+    before = packing.contacts
+    after = apply_slip(packing, Interaction.from_law(law))
     expected = before.displacement
     if law.tangential.startswith("sharp_coulomb"):
         limit = naive.threshold(law, before.overlap)
         assert np.any(np.abs(expected) > limit)
         expected = np.clip(expected, -limit, limit)
-    np.testing.assert_allclose(contacts.displacement, expected, rtol=1e-13)
-    np.testing.assert_array_equal(find_contacts(after).displacement, contacts.displacement)
+    np.testing.assert_allclose(after.contacts.displacement, expected, rtol=1e-13)
+    np.testing.assert_array_equal(after.history.spring_state, after.contacts.displacement)
 
 
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
 def test_a_small_motion_carries_the_springs(law):
     packing = crowd(38, strain=0.3, slip=0.4)
     u = np.random.default_rng(1).normal(0.0, 1e-4, (packing.n, 3))
-    contacts = find_contacts(packing)
-    moved = displace_with_springs(packing, contacts, Interaction.from_law(law), u)
+    contacts = packing.contacts
+    moved = displace_with_springs(packing, Interaction.from_law(law), u)
     pairs = naive.all_moved(
         law,
         naive.all_pairs(
@@ -192,9 +192,7 @@ def test_a_small_motion_carries_the_springs(law):
         ),
         u,
     )
-    np.testing.assert_allclose(
-        find_contacts(moved).displacement, [p.slip for p in pairs], atol=1e-13
-    )
+    np.testing.assert_allclose(moved.contacts.displacement, [p.slip for p in pairs], atol=1e-13)
     np.testing.assert_array_equal(moved.rotation, u[:, 2])
 
 
@@ -227,7 +225,7 @@ def test_dynamics_are_those_of_the_slow_twin_step_by_step(law, damping):
     assert found.steps == steps
     np.testing.assert_allclose(found.velocity, now.velocity, atol=1e-9)
     assert np.abs(found.velocity[:, 2]).max() > 1e-4
-    contacts = find_contacts(found.packing)
+    contacts = found.packing.contacts
     pairs = slow.pairs_at(scene, now.position, now.slip)
     assert [(p.i, p.j) for p in pairs] == list(zip(contacts.i, contacts.j, strict=True))
     np.testing.assert_allclose(contacts.displacement, [p.slip for p in pairs], atol=1e-9)

@@ -15,7 +15,7 @@ from example_packings import (
     smoothed_coulomb,
 )
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import relaxed_steps
@@ -237,7 +237,7 @@ def test_all_modes_are_left_out_where_they_would_take_hours(monkeypatch):
 def test_what_is_not_jammed_has_places_only():
     packing = reference(MINIMAL[0])[1]
     apart = replace(packing, box_length=2 * packing.box_length)
-    assert len(find_contacts(apart).i) == 0
+    assert len(apart.contacts.i) == 0
     block = fields_block(packings(apart), LAW, Rattlers(), StepStrain())
     assert (block.variables["jammed"][0], block.variables["converged"][0]) == (0, 1)
     assert "position" in block.variables and "nonaffine_field" not in block.variables

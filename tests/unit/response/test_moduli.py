@@ -22,7 +22,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.linalg.pinned_factor import FloppyError, PinnedFactor
 from grainmodes.packing.forces import net
 from grainmodes.packing.jacobian import jacobian
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.response.mode_sum import ModeRigidity, elastic_modes, mode_sum
@@ -102,11 +102,11 @@ def test_parts_add_up_and_are_those_of_sigma_xy():
 @pytest.mark.parametrize("kt", [0.0, 1e-4, 1.0])
 def test_displacement_solves_the_balance_and_does_not_drift(kt):
     packing = reference(ELASTIC[3])[1]
-    interaction, contacts = elastic("hertz", kt), find_contacts(packing)
+    interaction, contacts = elastic("hertz", kt), packing.contacts
     u = rigidity(packing, interaction).loaded.displacement
     assert u.shape == (packing.n, 3 if kt else 2)
     np.testing.assert_allclose(u[:, :2].mean(axis=0), 0.0, atol=1e-14)
-    matrix = jacobian(packing, contacts, interaction)
+    matrix = jacobian(packing, interaction)
     rate = -matrix @ u.ravel()
     sheared = affine_displacement(contacts, u.shape[1], True)
     pairs = contacts_and_pairs(packing)[1]
@@ -176,8 +176,7 @@ def test_a_packing_of_rattlers_is_refused():
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
 def test_factor_solves_general_jacobians(law):
     packing = keeping(law, reference(SHEARED)[1])
-    contacts = find_contacts(packing)
-    matrix = jacobian(packing, contacts, Interaction.from_law(law))
+    matrix = jacobian(packing, Interaction.from_law(law))
     wanted = np.random.default_rng(1).normal(size=(packing.n, 3))
     wanted[:, :2] -= wanted[:, :2].mean(axis=0)
     u = PinnedFactor(matrix, symmetric=False).solve(wanted)
@@ -186,7 +185,7 @@ def test_factor_solves_general_jacobians(law):
 
 
 def test_relative_and_net_are_each_others_transpose():
-    contacts = find_contacts(reference(MINIMAL[0])[1])
+    contacts = reference(MINIMAL[0])[1].contacts
     draws = np.random.default_rng(0)
     u, rate = draws.normal(size=(16, 3)), draws.normal(size=(len(contacts.i), 3))
     assert np.sum(relative(contacts, u) * rate) == pytest.approx(

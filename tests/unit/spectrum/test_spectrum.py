@@ -17,7 +17,7 @@ from example_packings import (
 )
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.jacobian import jacobian
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.spectrum import packing_spectrum
 from grainmodes.spectrum.measures import participation_ratio, rotational_fraction
@@ -46,7 +46,7 @@ def isolated(values: np.ndarray) -> np.ndarray:
 
 def test_sheared_reference_eigenvalues():
     data, packing = reference(SHEARED)
-    matrix = jacobian(packing, find_contacts(packing), Interaction.from_law(smoothed_coulomb(data)))
+    matrix = jacobian(packing, Interaction.from_law(smoothed_coulomb(data)))
     inverse_inertia = np.tile([1.0, 1.0, 2.0], packing.n)
     found = np.linalg.eigvals(inverse_inertia[:, None] * matrix.toarray())
     real, imag = (data[f"dynamical_eigenvalue_{part}"].values for part in ("real", "imag"))
@@ -65,7 +65,7 @@ def test_slip_makes_a_general_spectrum():
         packing_spectrum(packing, interaction),
         packing_spectrum(packing, interaction, modes=False),
     )
-    matrix = jacobian(packing, find_contacts(packing), interaction).toarray()
+    matrix = jacobian(packing, interaction).toarray()
     assert found.residual < 1e-13
     np.testing.assert_allclose(matrix @ found.modes, found.modes * found.eigenvalue, atol=1e-13)
     np.testing.assert_allclose(

@@ -12,7 +12,7 @@ from grainmodes.dataset.files import Block, read_block, write_block
 from grainmodes.kernels.damping import Dashpot, Undamped
 from grainmodes.kernels.laws import Hertz
 from grainmodes.packing.jacobian import jacobian
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.compression.frictional_compression import (
@@ -112,8 +112,8 @@ def test_a_step_of_velocity_verlet_is_as_right_as_paper_a_says(name, kt):
 def test_a_loosened_packing_touches_in_one_place():
     packing = expanded_to_contact(crowd(71, slip=0.3))
     assert packing.history is None and packing.rotation is None
-    assert len(find_contacts(replace(packing, box_length=packing.box_length * (1 - 1e-12))).i) == 1
-    assert len(find_contacts(replace(packing, box_length=packing.box_length * (1 + 1e-12))).i) == 0
+    assert len(replace(packing, box_length=packing.box_length * (1 - 1e-12)).contacts.i) == 1
+    assert len(replace(packing, box_length=packing.box_length * (1 + 1e-12)).contacts.i) == 0
 
 
 @pytest.mark.parametrize("name", [SMALL, HERTZ])
@@ -121,7 +121,7 @@ def test_compression_with_friction_loads_springs_and_makes_complex_pairs(name):
     packing, interaction = reference(name)[1], elastic(name, KT)
     found = frictional_compression(packing, interaction, 1e-14)
     assert found.jammed
-    assert np.abs(find_contacts(found.packing).displacement).max() > 1e-4
+    assert np.abs(found.packing.contacts.displacement).max() > 1e-4
     if name == HERTZ:
         assert complex_pairs(found.packing, interaction) > 0
     unsprung = replace(found.packing, history=None)
@@ -131,7 +131,7 @@ def test_compression_with_friction_loads_springs_and_makes_complex_pairs(name):
 def test_pairs_are_those_of_the_matrix_over_the_masses():
     packing, interaction = crowd(72, slip=0.8), elastic("hertz", 1.0)
     mass = np.repeat(packing.mass, 3) * np.tile([1.0, 1.0, 0.5], packing.n)
-    matrix = jacobian(packing, find_contacts(packing), interaction).toarray()
+    matrix = jacobian(packing, interaction).toarray()
     values = np.linalg.eigvals(np.diag(1 / mass) @ matrix)
     assert complex_pairs(packing, interaction) == np.count_nonzero(values.imag > 1e-9) > 0
     assert complex_pairs(packing, interaction) != np.count_nonzero(

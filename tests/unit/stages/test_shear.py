@@ -18,7 +18,7 @@ from grainmodes.ensemble.point import merge_blocks
 from grainmodes.kernels.laws import Harmonic, Interaction
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import largest, net_force
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
@@ -80,7 +80,7 @@ def test_an_event_can_be_taken_up_from_either_side(sheared):
             history=history,
         )
         interaction = Interaction.from_law(LAW)
-        assert max(largest(net_force(state, find_contacts(state), interaction))) < 1e-14
+        assert max(largest(net_force(state, interaction))) < 1e-14
 
 
 def test_a_packing_that_is_not_jammed_has_no_curve(sheared):

@@ -33,9 +33,8 @@ import numpy as np
 
 from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing.contacts import rattlers
 from grainmodes.packing.forces import mean_contact_force
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing, rattlers
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.newton import newton
 from grainmodes.relaxation.result import RelaxationResult
@@ -98,7 +97,7 @@ def frictional_compression(
 
 def expanded_to_contact(packing: Packing) -> Packing:
     """The packing in the largest box in which two grains still touch, without springs."""
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     stretch = 1.0 + contacts.overlap / contacts.distance
     length = packing.box_length * stretch.max(initial=1.0)
     return replace(packing, box_length=float(length), rotation=None, history=None)
@@ -108,7 +107,7 @@ def _relax(
     packing: Packing, interaction: Interaction, force_ratio: float, max_steps: int
 ) -> RelaxationResult:
     """Damped dynamics until max|F̃| is the part `force_ratio` of the mean contact force."""
-    force = mean_contact_force(find_contacts(packing), interaction)
+    force = mean_contact_force(packing, interaction)
     damping = Dashpot(VISCOSITY)
     return relax_damped(packing, interaction, damping, TIME_STEP, force_ratio * force, max_steps)
 
@@ -121,8 +120,8 @@ def _final_balance(
     Each contact has two force components, each grain three degrees of freedom: a rigid backbone
     under pressure has at least 2C ≥ 3N − 1.
     """
-    backbone = packing.without(rattlers(find_contacts(packing), packing.n, RATTLER_CONTACTS))
-    if not 2 * len(find_contacts(backbone).i) >= 3 * backbone.n - 1 > 0:
+    backbone = packing.without(rattlers(packing, RATTLER_CONTACTS))
+    if not 2 * len(backbone.contacts.i) >= 3 * backbone.n - 1 > 0:
         return CompressedState(backbone.without(np.ones(backbone.n, bool)), False, steps)
     solved = newton(backbone, interaction, tolerance, MAX_NEWTON_ITERATIONS)
     if not solved.converged:

@@ -55,15 +55,9 @@ class Seen(NamedTuple):
     @classmethod
     def of(cls, equilibrium: EquilibriumState) -> Seen:
         """Count the pairs of a state, and release it where there is one."""
-        packing, contacts, interaction = (
-            equilibrium.backbone,
-            equilibrium.backbone_contacts,
-            equilibrium.interaction,
-        )
-        slips, sticks = (
-            fastest_pair(packing, contacts, interaction, s) for s in (SLIPPING, STICKING)
-        )
-        slipping = int(slipping_contacts(contacts, interaction).sum())
+        packing, interaction = equilibrium.backbone, equilibrium.interaction
+        slips, sticks = (fastest_pair(packing, interaction, s) for s in (SLIPPING, STICKING))
+        slipping = int(slipping_contacts(packing.contacts, interaction).sum())
         growth = simulated_growth_rate(packing, interaction, slips) if slips.pairs else np.nan
         return cls(packing.strain, slips.pairs, sticks.pairs, slipping, slips.growth_rate, growth)
 

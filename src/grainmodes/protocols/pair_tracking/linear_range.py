@@ -27,7 +27,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.release import GROWTH_RANGE
 from grainmodes.protocols.pair_tracking.detection import Seen
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
@@ -65,7 +64,7 @@ def rooms(equilibrium: EquilibriumState, motions: np.ndarray) -> np.ndarray:
     """M of the first change of contacts along every mode, (P,)."""
     packing, held = equilibrium.packing, equilibrium.backbone_mask
     larger = replace(packing, diameter=packing.diameter + FARTHEST, history=None)
-    near = find_contacts(larger)
+    near = larger.contacts
     loaded = held[near.i] & held[near.j]
     margin = np.abs(near.overlap - FARTHEST)[loaded]
     plane = motions[:, :2]

@@ -19,7 +19,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.packing.state import find_contacts
 from grainmodes.parameters.release import GROWTH_RANGE
 from grainmodes.protocols.release.growth_fit import NO_FIT, GrowthFit, fit_growth, in_growth_range
 from grainmodes.protocols.release.record import MotionRecord
@@ -67,7 +66,7 @@ def release_outcome(run: ReleaseRun) -> ReleaseOutcome:
         _growth_fit(run, series, name)
         for name in ("mean_square_displacement", "mean_square_rotation")
     )
-    overlap = find_contacts(run.start.packing).overlap.mean()
+    overlap = run.start.packing.contacts.overlap.mean()
     final = time >= (1.0 - FINAL_PART) * time[-1]
     return ReleaseOutcome(
         displacement,

@@ -15,10 +15,10 @@ from typing import NamedTuple
 import numpy as np
 
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing.contacts import Contacts, rattlers
+from grainmodes.packing.contacts import contact_changes
 from grainmodes.packing.forces import forces_on_i, sliding, stress
 from grainmodes.packing.mass_weighted import generalized_mass
-from grainmodes.packing.state import Packing, find_contacts, nonaffine_motion
+from grainmodes.packing.state import Packing, nonaffine_motion, rattlers
 from grainmodes.relaxation.dynamics import Motion
 from grainmodes.relaxation.equilibrium_state import rattler_threshold
 
@@ -55,9 +55,9 @@ def record_motion(
     time: float, motion: Motion, start: Packing, interaction: Interaction
 ) -> MotionRecord:
     """Record a moving packing that left `start`, a state at rest of the same grains."""
-    packing, contacts = motion.packing, find_contacts(motion.packing)
+    packing, contacts = motion.packing, motion.packing.contacts
     displacement = nonaffine_motion(start, packing)
-    sigma = stress(packing, contacts, interaction)
+    sigma = stress(packing, interaction)
     return MotionRecord(
         time,
         float((displacement[:, :2] ** 2).sum(axis=1).mean()),
@@ -67,24 +67,18 @@ def record_motion(
         float(sigma[1, 0]),
         2.0 * len(contacts.i) / packing.n,
         int(sliding(contacts, interaction).sum()),
-        count_changed_contacts(contacts, find_contacts(start), packing.n, interaction),
+        count_changed_contacts(packing, start, interaction),
         0.5 * float((generalized_mass(packing.mass) * motion.velocity**2).sum()),
     )
 
 
-def count_changed_contacts(
-    contacts: Contacts, before: Contacts, n: int, interaction: Interaction
-) -> int:
+def count_changed_contacts(packing: Packing, before: Packing, interaction: Interaction) -> int:
     """Number of contacts gained and lost between the grains that carried load before.
 
     Rattlers do not count: a rattler may begin to touch at any time, and bears no load.
     """
-    held = ~rattlers(before, n, rattler_threshold(interaction))
-    keys = (
-        found.i.astype(np.int64) << 32 | found.j
-        for found in (contacts.among(held), before.among(held))
-    )
-    return len(np.setxor1d(*keys, assume_unique=True))
+    in_backbone = ~rattlers(before, rattler_threshold(interaction))
+    return contact_changes(*(state.contacts.among(in_backbone) for state in (before, packing)))
 
 
 class GrainStress(NamedTuple):
@@ -101,7 +95,7 @@ class GrainStress(NamedTuple):
 
 def grain_stress(packing: Packing, interaction: Interaction) -> GrainStress:
     """Contact numbers and pressures of all grains and contacts: C, Figs. 9 and 10."""
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     force = forces_on_i(contacts, interaction)[:, :2]
     binary = np.einsum("ca,ca->c", force, contacts.normal) * contacts.distance
     numbers, sums = (

@@ -17,7 +17,7 @@ from grainmodes.kernels.damping import Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.mass_weighted import generalized_mass
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.protocols.shear.coulomb_threshold import SLIPPING, FastestPair, fastest_mode
 from grainmodes.relaxation.dynamics import Motion, move
 from grainmodes.relaxation.newton import apply_slip, displace_with_springs
@@ -59,12 +59,9 @@ def simulated_growth_rate(packing: Packing, interaction: Interaction, pair: Fast
 
 def _on_growing_solution(packing: Packing, interaction: Interaction, pair: FastestPair) -> Motion:
     """The state q + a Re(u), its springs at most at their threshold, and its velocity."""
-    contacts = find_contacts(packing)
-    u = AMPLITUDE * fastest_mode(packing, contacts, interaction, SLIPPING)
+    u = AMPLITUDE * fastest_mode(packing, interaction, SLIPPING)
     velocity = (-1j * np.sqrt(complex(pair.eigenvalue)) * u).real
-    start, _ = apply_slip(
-        displace_with_springs(packing, contacts, interaction, u.real), interaction
-    )
+    start = apply_slip(displace_with_springs(packing, interaction, u.real), interaction)
     return Motion(start, velocity, 0, math.inf)
 
 

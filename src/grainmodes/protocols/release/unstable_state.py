@@ -26,7 +26,7 @@ import numpy as np
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.mass_weighted import generalized_mass
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class UnstableState:
 
     def residual(self, interaction: Interaction) -> float:
         """max|M⁻¹J u − λ u| over |λ| max|u|."""
-        matrix = jacobian(self.packing, find_contacts(self.packing), interaction)
+        matrix = jacobian(self.packing, interaction)
         mass = generalized_mass(self.packing.mass).ravel()
         vector = self.mode.ravel()
         difference = matrix @ vector / mass - self.eigenvalue * vector

@@ -70,15 +70,13 @@ def slipping_contacts(contacts: Contacts, interaction: Interaction) -> np.ndarra
     return stiffness_of(beside_threshold(contacts, SLIPPING), interaction)[:, 2, 2] == 0.0
 
 
-def fastest_pair(
-    packing: Packing, contacts: Contacts, interaction: Interaction, side: float
-) -> FastestPair:
+def fastest_pair(packing: Packing, interaction: Interaction, side: float) -> FastestPair:
     """The complex pairs of M⁻¹J on one side, by LAPACK.
 
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
-    matrix = _dense_jacobian(packing, contacts, interaction, side)
+    matrix = _dense_jacobian(packing, interaction, side)
     values = scipy.linalg.eigvals(matrix, overwrite_a=True)
     fastest = _place_of_fastest(values)
     highest_frequency = float(np.sqrt(np.abs(values).max()))
@@ -86,15 +84,13 @@ def fastest_pair(
     return FastestPair(pairs, complex(values[fastest]) if pairs else 0.0, highest_frequency)
 
 
-def fastest_mode(
-    packing: Packing, contacts: Contacts, interaction: Interaction, side: float
-) -> np.ndarray:
+def fastest_mode(packing: Packing, interaction: Interaction, side: float) -> np.ndarray:
     """u of the pair that grows fastest, (N, 3) complex with max|u| = 1.
 
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
-    values, vectors = scipy.linalg.eig(_dense_jacobian(packing, contacts, interaction, side))
+    values, vectors = scipy.linalg.eig(_dense_jacobian(packing, interaction, side))
     u = vectors[:, _place_of_fastest(values)].reshape(-1, 3) / root_mass(packing.mass)
     return u / np.abs(u).max()
 
@@ -104,10 +100,9 @@ def _place_of_fastest(values: np.ndarray) -> int:
     return int(np.argmax(np.where(values.imag > REAL, np.sqrt(values.astype(complex)).imag, -1.0)))
 
 
-def _dense_jacobian(
-    packing: Packing, contacts: Contacts, interaction: Interaction, side: float
-) -> np.ndarray:
+def _dense_jacobian(packing: Packing, interaction: Interaction, side: float) -> np.ndarray:
     """The mass-weighted Jacobian M^(−1/2) J M^(−1/2) on one side, dense (3N, 3N)."""
+    contacts = packing.contacts
     stiffness = stiffness_of(beside_threshold(contacts, side), interaction)
     matrix = assemble(stiffness, contacts.i, contacts.j, packing.n)
     return mass_weighted_jacobian(matrix, packing.mass).toarray()

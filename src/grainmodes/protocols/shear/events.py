@@ -19,7 +19,7 @@ import numpy as np
 
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.springs import advance_by_slide
-from grainmodes.packing.state import Packing, find_contacts, nonaffine_motion
+from grainmodes.packing.state import Packing, nonaffine_motion
 from grainmodes.protocols.shear.sheared_state import CurvePoint, ShearedState
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
@@ -59,11 +59,11 @@ class PlasticEvent(NamedTuple):
         cls, before: ShearedState, after: ShearedState, kind: int, opened: int, closed: int
     ) -> PlasticEvent:
         """The event that lies between two states, without the motion of the centre."""
-        packings = before.equilibrium.packing, after.equilibrium.packing
+        first, last = (state.equilibrium.packing.without_contacts() for state in (before, after))
         points = before.curve_point(with_lowest=True), after.curve_point(with_lowest=True)
-        displacement = nonaffine_motion(*packings)
+        displacement = nonaffine_motion(first, last)
         displacement[:, :2] -= displacement[:, :2].mean(axis=0)
-        return cls(kind, *packings, points, opened, closed, displacement)
+        return cls(kind, first, last, points, opened, closed, displacement)
 
 
 def event_kind(before: ShearedState, after: ShearedState) -> int:
@@ -94,8 +94,8 @@ def count_reopened(before: Packing, after: Packing, interaction: Interaction) ->
     if before.history is None or after.history is None:
         return 0
     motion = nonaffine_motion(before, after)
-    contacts, old = find_contacts(after), before.history
-    place = _place_in_history(old.i, old.j, contacts.i, contacts.j, before.n)
+    contacts, old = after.contacts, before.history
+    place = _place_in_history(old.key, contacts.key)
     common = place >= 0
     i, j, s = contacts.i[common], contacts.j[common], contacts.displacement[common]
     relative = motion[i] - motion[j]
@@ -109,10 +109,7 @@ def count_reopened(before: Packing, after: Packing, interaction: Interaction) ->
     return int(np.count_nonzero(restarted))
 
 
-def _place_in_history(
-    old_i: np.ndarray, old_j: np.ndarray, i: np.ndarray, j: np.ndarray, n: int
-) -> np.ndarray:
-    """Place of each pair (i, j) among the sorted pairs (old_i, old_j), (C,) int; -1 if absent."""
-    old, wanted = old_i.astype(np.int64) * n + old_j, i.astype(np.int64) * n + j
+def _place_in_history(old: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Place of each wanted pair among the old ones, by their keys, (C,) int; -1 if absent."""
     place = np.minimum(np.searchsorted(old, wanted), len(old) - 1)
     return np.where(old[place] == wanted, place, -1) if len(old) else place

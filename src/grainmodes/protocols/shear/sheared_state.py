@@ -58,7 +58,7 @@ class ShearedState:
     def stress(self) -> np.ndarray:
         """σ_αβ, (2, 2) in k_N d^(1/2): B (15)."""
         equilibrium = self.equilibrium
-        return stress(equilibrium.backbone, equilibrium.backbone_contacts, equilibrium.interaction)
+        return stress(equilibrium.backbone, equilibrium.interaction)
 
     @cached_property
     def response(self) -> Moduli:
@@ -68,12 +68,7 @@ class ShearedState:
             FloppyError: the backbone has zero modes beyond the translations.
         """
         equilibrium = self.equilibrium
-        step = AffineStep(
-            equilibrium.backbone,
-            equilibrium.backbone_contacts,
-            equilibrium.interaction,
-            self.loaded,
-        )
+        step = AffineStep(equilibrium.backbone, equilibrium.interaction, self.loaded)
         return step.moduli(equilibrium.solve(step.force, self.response_guess))
 
     @cached_property
@@ -105,7 +100,7 @@ class ShearedState:
             self.strain,
             self.stress,
             self.modulus,
-            energy(equilibrium.backbone_contacts, equilibrium.interaction),
-            2.0 * len(equilibrium.backbone_contacts.i) / grains if grains else 0.0,
+            energy(equilibrium.backbone, equilibrium.interaction),
+            2.0 * len(equilibrium.backbone.contacts.i) / grains if grains else 0.0,
             self.lowest_eigenvalue if with_lowest else np.nan,
         )

@@ -20,9 +20,9 @@ from dataclasses import dataclass, replace
 
 from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing.contacts import Contacts
+from grainmodes.packing.contacts import contact_changes
 from grainmodes.packing.forces import is_frictionless, stress
-from grainmodes.packing.state import Packing, backbone, find_contacts
+from grainmodes.packing.state import Packing, backbone
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.newton import newton
@@ -94,9 +94,7 @@ def forward_rigidity(
     after = _relax(before.sheared(before.strain + protocol.strain), interaction, protocol)
     if not after.converged:
         raise ArithmeticError(f"max|F| = {after.max_force:.1e}, {after.iterations} iterations")
-    at_rest, strained = (
-        stress(state, find_contacts(state), interaction)[0, 1] for state in (before, after.packing)
-    )
+    at_rest, strained = (stress(state, interaction)[0, 1] for state in (before, after.packing))
     return float((strained - at_rest) / protocol.strain)
 
 
@@ -104,14 +102,9 @@ def _central_difference(
     packing: Packing, interaction: Interaction, protocol: StepStrain
 ) -> SimulatedRigidity:
     """g of steps ±Δγ of one size; its error is not yet known."""
-    before = find_contacts(packing)
-    at_rest = stress(packing, before, interaction)[0, 1]
+    at_rest = stress(packing, interaction)[0, 1]
     relaxed = relaxed_steps(packing, interaction, protocol)
-    after = [find_contacts(step.packing) for step in relaxed]
-    forward, backward = (
-        stress(step.packing, contacts, interaction)[0, 1]
-        for step, contacts in zip(relaxed, after, strict=True)
-    )
+    forward, backward = (stress(step.packing, interaction)[0, 1] for step in relaxed)
     return SimulatedRigidity(
         g=float((forward - backward) / (2.0 * protocol.strain)),
         g_forward=float((forward - at_rest) / protocol.strain),
@@ -121,7 +114,9 @@ def _central_difference(
         iterations=sum(step.iterations for step in relaxed),
         max_force=max(step.max_force for step in relaxed),
         max_torque=max(step.max_torque for step in relaxed),
-        contact_changes=max(_count_differing_contacts(before, contacts) for contacts in after),
+        contact_changes=max(
+            contact_changes(packing.contacts, step.packing.contacts) for step in relaxed
+        ),
     )
 
 
@@ -153,9 +148,3 @@ def _relax(packing: Packing, interaction: Interaction, protocol: StepStrain) -> 
         protocol.force_tolerance,
         protocol.max_steps,
     )
-
-
-def _count_differing_contacts(before: Contacts, after: Contacts) -> int:
-    """Number of contacts that are in one list but not in the other."""
-    pairs = [set(zip(c.i.tolist(), c.j.tolist(), strict=True)) for c in (before, after)]
-    return len(pairs[0] ^ pairs[1])

@@ -10,8 +10,12 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing.contacts import rattlers
-from grainmodes.packing.state import Packing, find_contacts, nonaffine_motion, on_all_grains
+from grainmodes.packing.state import (
+    Packing,
+    nonaffine_motion,
+    on_all_grains,
+    rattlers,
+)
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import relaxed_steps
 
@@ -24,7 +28,7 @@ def simulated_field(
     Raises:
         ArithmeticError: a relaxation did not reach its force tolerance.
     """
-    is_rattler = rattlers(find_contacts(packing), packing.n, threshold)
+    is_rattler = rattlers(packing, threshold)
     backbone = packing.without(is_rattler)
     steps = relaxed_steps(backbone, interaction, protocol)
     for step in steps:

@@ -28,7 +28,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.springs import advance_by_slide
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import is_frictionless, mean_contact_force
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.strain import Shear
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.equilibrium_search import find_equilibrium
@@ -89,7 +89,7 @@ def strained_affinely(before: EquilibriumState, strain: float, loaded: bool) -> 
     sheared = before.packing.sheared(strain)
     if not loaded or is_frictionless(before.interaction):
         return sheared
-    contacts = before.contacts
+    contacts = before.packing.contacts
     r = contacts.normal * contacts.distance[:, None]
     slide = (strain - before.packing.strain) * r[:, 1]
     middle = np.hypot(r[:, 0] + 0.5 * slide, r[:, 1])
@@ -111,7 +111,7 @@ def _equilibrium_by_dynamics(
     interaction, target = before.interaction, choices.force_tolerance
     tolerance, steps_left = target, choices.max_steps
     if choices.relaxation != "damped":
-        mean = mean_contact_force(find_contacts(packing), interaction)
+        mean = mean_contact_force(packing, interaction)
         tolerance = max(HANDOVER_FORCE_RATIO * mean, target)
     while steps_left > 0:
         relaxed = _run_dynamics(packing, interaction, tolerance, choices, steps_left)

@@ -51,14 +51,15 @@ class TangentialPath:
     """V of every contact along a shear, (C, 2) in d; it starts as s t of the first equilibrium."""
 
     def __init__(self, equilibrium: EquilibriumState):
-        contacts = equilibrium.contacts
-        self._keys, self._contacts = _contact_keys(equilibrium), contacts
+        contacts = equilibrium.packing.contacts
+        self._keys, self._contacts = contacts.key, contacts
         self._path = contacts.displacement[:, None] * contacts.tangent
         self._first_normal = contacts.normal
 
     def follow(self, equilibrium: EquilibriumState) -> PathError:
         """Go on to the next state; a contact that has closed begins with V = 0."""
-        contacts, keys = equilibrium.contacts, _contact_keys(equilibrium)
+        contacts = equilibrium.packing.contacts
+        keys = contacts.key
         _, new, old = np.intersect1d(keys, self._keys, assume_unique=True, return_indices=True)
         middle, slide = contacts.normal.copy(), contacts.displacement.copy()
         middle[new] += self._contacts.normal[old]
@@ -100,9 +101,3 @@ def _length_difference(path: np.ndarray, contacts: Contacts) -> np.ndarray:
 
 def _largest_and_median(values: np.ndarray) -> tuple[float, float]:
     return (float(values.max()), float(np.median(values))) if len(values) else (np.nan, np.nan)
-
-
-def _contact_keys(equilibrium: EquilibriumState) -> np.ndarray:
-    """One number for every contact, ascending, (C,) int64."""
-    contacts = equilibrium.contacts
-    return contacts.i.astype(np.int64) * equilibrium.packing.n + contacts.j

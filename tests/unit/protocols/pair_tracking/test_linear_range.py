@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from grainmodes.packing.state import find_contacts, nonaffine_motion
+from grainmodes.packing.state import nonaffine_motion
 from grainmodes.parameters.release import GROWTH_RANGE, Release
 from grainmodes.protocols.pair_tracking.detection import ByLapack, Seen, seen_by
 from grainmodes.protocols.pair_tracking.linear_range import fastest_with_room, rooms
@@ -30,7 +30,7 @@ def motions(equilibrium: EquilibriumState) -> np.ndarray:
 
 
 def keys(packing) -> set[tuple[int, int]]:
-    contacts = find_contacts(packing)
+    contacts = packing.contacts
     return set(zip(contacts.i.tolist(), contacts.j.tolist(), strict=True))
 
 
@@ -98,8 +98,8 @@ def test_the_room_is_one_of_a_direction_and_not_of_a_vector():
 def test_a_loose_grain_takes_no_room():
     """A grain that only one contact holds is put down at zero overlap."""
     equilibrium = sheared_equilibrium()
-    weakest = np.argmin(equilibrium.contacts.overlap)
-    grain = equilibrium.contacts.i[weakest]
+    weakest = np.argmin(equilibrium.packing.contacts.overlap)
+    grain = equilibrium.packing.contacts.i[weakest]
     held = np.arange(equilibrium.packing.n) != grain
     shrunk = narrowed(equilibrium)
     assert rooms(shrunk, motions(equilibrium)).max() < 1e-15
@@ -108,10 +108,10 @@ def test_a_loose_grain_takes_no_room():
 
 def narrowed(equilibrium: EquilibriumState) -> EquilibriumState:
     """The weakest contact left with an overlap of 1e-9 d by a grain that is made smaller."""
-    weakest = np.argmin(equilibrium.contacts.overlap)
+    weakest = np.argmin(equilibrium.packing.contacts.overlap)
     diameter = equilibrium.packing.diameter.copy()
-    diameter[equilibrium.contacts.i[weakest]] -= 2.0 * (
-        equilibrium.contacts.overlap[weakest] - 1e-9
+    diameter[equilibrium.packing.contacts.i[weakest]] -= 2.0 * (
+        equilibrium.packing.contacts.overlap[weakest] - 1e-9
     )
     return EquilibriumState.from_packing(
         replace(equilibrium.packing, diameter=diameter), equilibrium.interaction

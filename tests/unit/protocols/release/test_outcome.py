@@ -5,7 +5,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from grainmodes.packing.state import find_contacts
 from grainmodes.protocols.release.outcome import release_outcome
 from grainmodes.protocols.release.record import (
     MotionRecord,
@@ -31,7 +30,7 @@ def test_the_outcome_of_a_run_is_found_from_its_records():
     time = np.unique(np.concatenate([even, 7.0 / rate + turn / 24 * np.arange(288)]))
     growth = 1e-22 * np.exp(2 * rate * time)
     square = np.minimum(growth * (1 + 0.2 * np.cos(2 * start.frequency * time)), 1e-7)
-    overlap = find_contacts(start.packing).overlap.mean()
+    overlap = start.packing.contacts.overlap.mean()
     square[time > 40.0 / rate] = 0.8 * overlap**2
     square[time > 50.0 / rate] = 1.2 * overlap**2
     blank = np.zeros(len(MotionRecord._fields))

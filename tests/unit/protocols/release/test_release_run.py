@@ -10,7 +10,7 @@ from grainmodes.kernels.damping import Drag, Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Elastic, Hertz, Interaction
 from grainmodes.packing.forces import energy
-from grainmodes.packing.state import Packing, find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.release import Release
 from grainmodes.protocols.release.growth_fit import fit_growth
 from grainmodes.protocols.release.release_run import FRAMES, ReleaseRun
@@ -137,7 +137,7 @@ def energy_error(packing, start, interaction, dt: float) -> float:
     motion, totals = Motion(packing, start, 0, np.inf), []
     for _ in range(100):
         kinetic = 0.5 * (inertia * motion.velocity**2).sum()
-        totals.append(kinetic + energy(find_contacts(motion.packing), interaction))
+        totals.append(kinetic + energy(motion.packing, interaction))
         motion = move(
             motion.packing, motion.velocity, interaction, Undamped(), dt, Stop(0.0, round(2 / dt))
         )

@@ -4,7 +4,6 @@ import pytest
 
 from example_packings import SHEARED, reference, smoothed_coulomb
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing.state import find_contacts
 from grainmodes.protocols.release.simulated_growth import simulated_growth_rate
 from grainmodes.protocols.shear.coulomb_threshold import (
     SLIPPING,
@@ -20,7 +19,7 @@ def unstable():
 
 def test_a_released_state_grows_as_linear_theory_says():
     packing, interaction = unstable()
-    found = fastest_pair(packing, find_contacts(packing), interaction, SLIPPING)
+    found = fastest_pair(packing, interaction, SLIPPING)
     assert simulated_growth_rate(packing, interaction, found) == pytest.approx(
         found.growth_rate, rel=2e-3
     )

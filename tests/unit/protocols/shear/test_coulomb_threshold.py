@@ -10,7 +10,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import forces_on_i, sliding
 from grainmodes.packing.jacobian import jacobian, stiffness_of
 from grainmodes.packing.mass_weighted import generalized_mass
-from grainmodes.packing.state import find_contacts
+from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.protocols.shear.coulomb_threshold import (
     SLIPPING,
@@ -26,14 +26,14 @@ from grainmodes.response.stability import complex_pairs
 SHARP = [law for law in LAWS if law.tangential.startswith("sharp")]
 
 
-def half_slipped(law: ContactLaw):
-    """Contacts some of which the law has cut, and the packing."""
+def half_slipped(law: ContactLaw) -> Packing:
+    """A packing with contacts some of which the law has cut."""
     return apply_slip(keeping(law, crowd(91, slip=2.5)), Interaction.from_law(law))
 
 
 @pytest.mark.parametrize("law", SHARP, ids=law_name)
 def test_only_springs_at_their_threshold_have_two_sides(law):
-    interaction, (_, contacts) = Interaction.from_law(law), half_slipped(law)
+    interaction, contacts = Interaction.from_law(law), half_slipped(law).contacts
     at = slipping_contacts(contacts, interaction)
     assert 0 < at.sum() < len(at)
     slips, sticks = (
@@ -47,7 +47,7 @@ def test_only_springs_at_their_threshold_have_two_sides(law):
 
 @pytest.mark.parametrize("law", SHARP, ids=law_name)
 def test_contacts_slide_whose_tangential_force_is_coulombs(law):
-    interaction, (_, contacts) = Interaction.from_law(law), half_slipped(law)
+    interaction, contacts = Interaction.from_law(law), half_slipped(law).contacts
     force = forces_on_i(contacts, interaction)[:, :2]
     normal, tangential = (
         np.abs(np.einsum("ca,ca->c", force, axis)) for axis in (contacts.normal, contacts.tangent)
@@ -59,7 +59,7 @@ def test_contacts_slide_whose_tangential_force_is_coulombs(law):
 
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
 def test_forces_are_the_same_on_both_sides(law):
-    interaction, (_, contacts) = Interaction.from_law(law), half_slipped(law)
+    interaction, contacts = Interaction.from_law(law), half_slipped(law).contacts
     whole = forces_on_i(contacts, interaction)
     for side in (SLIPPING, STICKING):
         beside = forces_on_i(beside_threshold(contacts, side), interaction)
@@ -74,7 +74,7 @@ def unstable():
 
 def test_pairs_are_those_of_the_whole_matrix():
     packing, interaction = unstable()
-    found = fastest_pair(packing, find_contacts(packing), interaction, SLIPPING)
+    found = fastest_pair(packing, interaction, SLIPPING)
     assert found.pairs == complex_pairs(packing, interaction) > 0
     root = complex(found.frequency, found.growth_rate)
     assert root**2 == pytest.approx(found.eigenvalue, rel=1e-12)
@@ -82,10 +82,9 @@ def test_pairs_are_those_of_the_whole_matrix():
 
 def test_the_growing_mode_is_an_eigenvector():
     packing, interaction = unstable()
-    contacts = find_contacts(packing)
-    value = fastest_pair(packing, contacts, interaction, SLIPPING).eigenvalue
-    u = fastest_mode(packing, contacts, interaction, SLIPPING)
-    off = (jacobian(packing, contacts, interaction) @ u.ravel()).reshape(u.shape)
+    value = fastest_pair(packing, interaction, SLIPPING).eigenvalue
+    u = fastest_mode(packing, interaction, SLIPPING)
+    off = (jacobian(packing, interaction) @ u.ravel()).reshape(u.shape)
     off = off / generalized_mass(packing.mass) - value * u
     assert np.abs(u).max() == pytest.approx(1.0)
     assert np.abs(off).max() < 1e-7
@@ -94,5 +93,5 @@ def test_the_growing_mode_is_an_eigenvector():
 def test_without_history_nothing_oscillates():
     packing, interaction = unstable()
     still = replace(packing, history=None)
-    found = fastest_pair(still, find_contacts(still), interaction, SLIPPING)
+    found = fastest_pair(still, interaction, SLIPPING)
     assert (found.pairs, found.growth_rate, found.frequency) == (0, 0.0, 0.0)

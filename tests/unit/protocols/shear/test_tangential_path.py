@@ -23,7 +23,7 @@ def contact(angle: float, s: float) -> SimpleNamespace:
     pair = np.array([1]), np.array([0])
     normal = np.array([[np.cos(angle), np.sin(angle)]])
     contacts = Contacts(*pair, normal, np.ones(1), np.full(1, 0.1), np.array([s]))
-    return SimpleNamespace(contacts=contacts, packing=SimpleNamespace(n=2, strain=angle))
+    return SimpleNamespace(packing=SimpleNamespace(contacts=contacts, strain=angle))
 
 
 def test_a_contact_that_slides_while_it_turns_has_an_error_of_half_its_turn():
