@@ -30,9 +30,7 @@ except ConfigurationError as error:
     raise WorkflowError(f"The configuration has mistakes.\n{error}")
 
 # The command `grainmodes` of the Python that runs Snakemake, with its environment active or not.
-os.environ["PATH"] = os.pathsep.join(
-    [str(Path(sys.executable).parent), os.environ["PATH"]]
-)
+os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 
 STUDY = f"results/{scene.study}"
 BLOCK = "n~{n}/phi~{phi}/seeds~{seeds}.nc"
@@ -75,9 +73,7 @@ def sources_of_accuracy(*modules):
 def sources_of_figure(wildcards):
     """What all figures share, and the module of this one."""
     room = FIGURES[wildcards.figure].room
-    return sources(
-        "grainmodes.figures", f"grainmodes.figures.{room}.{wildcards.figure}"
-    )
+    return sources("grainmodes.figures", f"grainmodes.figures.{room}.{wildcards.figure}")
 
 
 def data_of_figure(wildcards):
@@ -111,10 +107,7 @@ def blocks_of_point(wildcards):
     """Packings and responses of a point, all blocks of seeds."""
     point = point_of(wildcards)
     folders = [STAGES[stage].output for stage in scene.responses(*point)]
-    files = [
-        f"{STUDY}/packings/{BLOCK}",
-        *(f"{STUDY}/{folder}/{RESPONSE}" for folder in folders),
-    ]
+    files = [f"{STUDY}/packings/{BLOCK}", *(f"{STUDY}/{folder}/{RESPONSE}" for folder in folders)]
     return expand(files, seeds=scene.blocks_of(*point), **dict(wildcards.items()))
 
 
@@ -141,9 +134,7 @@ def settings_of(stage):
 
 def files_of(room, points):
     """One file in a room of the study for each of these points."""
-    names = (
-        {key: format_value(value) for key, value in vars(p).items()} for p in points
-    )
+    names = ({key: format_value(value) for key, value in vars(p).items()} for p in points)
     return [f"{STUDY}/{room}/{POINT}".format(**name) for name in names]
 
 
@@ -163,11 +154,5 @@ def samples_of(name):
 
 def figures():
     """Every file of every figure that the scene asks for."""
-    films = (
-        [f"{STUDY}/figures/release_spirals.gif"]
-        if "release_spirals" in scene.figures
-        else []
-    )
-    return films + [
-        f"{STUDY}/figures/{name}.{form}" for name in scene.figures for form in FORMS
-    ]
+    films = [f"{STUDY}/figures/release_spirals.gif"] if "release_spirals" in scene.figures else []
+    return films + [f"{STUDY}/figures/{name}.{form}" for name in scene.figures for form in FORMS]
