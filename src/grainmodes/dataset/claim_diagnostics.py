@@ -1,4 +1,4 @@
-"""Names of what single claims need."""
+"""Names of measurements that only single claims need."""
 
 from __future__ import annotations
 
@@ -19,19 +19,25 @@ NAMES = {
         BLOCK,
         "f8",
         NUMBER,
-        "max |H - J| / max |J| of the effective Hessian H, tangent stiffnesses",
+        "max |H - J| / max |J| for the effective Hessian H with tangent stiffnesses",
     ),
     "hessian_printed_difference": Variable(
-        BLOCK, "f8", NUMBER, "the same with the constants k_N and k_T"
+        BLOCK,
+        "f8",
+        NUMBER,
+        "max |H - J| / max |J| for the effective Hessian H with the constants k_N and k_T",
     ),
     "verlet_order_position": Variable(
-        BLOCK, "f8", NUMBER, "order up to which a step of velocity Verlet is right in q"
+        BLOCK, "f8", NUMBER, "order in the time step up to which velocity Verlet is exact in q"
     ),
     "verlet_order_velocity": Variable(
-        BLOCK, "f8", NUMBER, "order up to which a step of velocity Verlet is right in dq/dt"
+        BLOCK, "f8", NUMBER, "order in the time step up to which velocity Verlet is exact in dq/dt"
     ),
     "complex_pairs_frictional": Variable(
-        BLOCK, "f8", NUMBER, "complex pairs of eigenvalues of J / M after compression with friction"
+        BLOCK,
+        "f8",
+        NUMBER,
+        "number of complex pairs of eigenvalues of J / M after compression with friction",
     ),
     "jammed_frictional": Variable(
         BLOCK, "f8", NUMBER, "1 if the state compressed with friction is jammed, else 0"

@@ -1,4 +1,4 @@
-"""Names of fields, (x, y, l) of every grain; NaN: a rattler."""
+"""Names of fields: (x, y, l) of every grain, NaN for a rattler."""
 
 from __future__ import annotations
 
@@ -19,12 +19,18 @@ NAMES = {
         GRAINS, "f8", LENGTH, "nonaffine_field from relaxed step strains"
     ),
     "frequency_asked": Variable(
-        ("seed", "frequency"), "f8", RATE, "frequency near which an eigenvector is sought"
+        ("seed", "frequency"),
+        "f8",
+        RATE,
+        "requested frequency, near which one eigenvector is computed",
     ),
     "frequency_found": Variable(
         ("seed", "frequency"), "f8", RATE, "frequency of the mode nearest to frequency_asked"
     ),
     "eigenvector": Variable(
-        ("seed", "frequency", "grain", "component"), "f8", NUMBER, "its eigenvector, of norm 1"
+        ("seed", "frequency", "grain", "component"),
+        "f8",
+        NUMBER,
+        "eigenvector of the mode at frequency_found, of norm 1",
     ),
 }

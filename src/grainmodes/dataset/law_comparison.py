@@ -1,4 +1,4 @@
-"""Names of what is seen under several tangential laws, once for each of them."""
+"""Names of the comparison of tangential laws, once for each law."""
 
 from __future__ import annotations
 
@@ -8,25 +8,24 @@ from grainmodes.parameters.law import TANGENTIAL_LAWS
 
 STATE = ("seed", "comparison_state")
 
-SEEN = {
-    "pairs_slipping": (NUMBER, "complex pairs of J / M, springs at their threshold slipping"),
-    "pairs_sticking": (NUMBER, "complex pairs of J / M, springs at their threshold sticking"),
-    "slipping": (NUMBER, "contacts at their threshold"),
-    "rate": (RATE, "largest omega_i of these pairs, springs slipping; 0: none"),
-    "growth": (RATE, "rate at which the released state leaves; NaN: no pair"),
+QUANTITIES = {
+    "pairs_slipping": (NUMBER, "number of complex pairs of J / M if springs at the threshold slip"),
+    "pairs_sticking": (
+        NUMBER,
+        "number of complex pairs of J / M if springs at the threshold stick",
+    ),
+    "slipping": (NUMBER, "number of contacts at the Coulomb threshold"),
+    "rate": (RATE, "largest omega_i of the pairs if springs at the threshold slip; 0: no pair"),
+    "growth": (RATE, "simulated growth rate of the released state; NaN: no pair"),
 }
-"""What is seen in a state → its unit and meaning."""
+"""Quantity of a state under one law → its unit and meaning."""
 
 NAMES = {
-    "comparison_count": Variable(
-        BLOCK, "i8", NUMBER, "number of states under several tangential laws"
-    ),
-    "comparison_strain": Variable(
-        STATE, "f8", NUMBER, "strain of a state that all laws are looked at"
-    ),
+    "comparison_count": Variable(BLOCK, "i8", NUMBER, "number of states that are compared"),
+    "comparison_strain": Variable(STATE, "f8", NUMBER, "strain of a state that is compared"),
     **{
         f"comparison_{number}_{law}": Variable(STATE, "f8", unit, f"{meaning}; law {law}")
         for law in TANGENTIAL_LAWS
-        for number, (unit, meaning) in SEEN.items()
+        for number, (unit, meaning) in QUANTITIES.items()
     },
 }

@@ -10,18 +10,23 @@ NAMES = {
     "g": Variable(BLOCK, "f8", MODULUS, "rigidity under an unloaded step strain"),
     "g_affine": Variable(BLOCK, "f8", MODULUS, "affine part of g"),
     "g_nonaffine": Variable(BLOCK, "f8", MODULUS, "non-affine part of g"),
-    "g_loaded": Variable(BLOCK, "f8", MODULUS, "rigidity, tangential springs loaded affinely"),
+    "g_loaded": Variable(
+        BLOCK, "f8", MODULUS, "rigidity when the affine step strain loads the tangential springs"
+    ),
     "g_affine_loaded": Variable(BLOCK, "f8", MODULUS, "affine part of g_loaded"),
     "g_nonaffine_loaded": Variable(BLOCK, "f8", MODULUS, "non-affine part of g_loaded"),
     # rigidity, simulation
     "g_simulated": Variable(
-        BLOCK, "f8", MODULUS, "rigidity from step strains to both sides, relaxed"
+        BLOCK, "f8", MODULUS, "rigidity from relaxed step strains forward and backward"
     ),
     "g_simulated_forward": Variable(
-        BLOCK, "f8", MODULUS, "rigidity from the forward step strain alone (paper A)"
+        BLOCK, "f8", MODULUS, "rigidity from the forward step strain alone, as in paper A"
     ),
     "g_simulated_error": Variable(
-        BLOCK, "f8", MODULUS, "difference of g_simulated to that of a step ten times larger"
+        BLOCK,
+        "f8",
+        MODULUS,
+        "difference between g_simulated and its value for a step ten times larger",
     ),
     "strain_simulated": Variable(BLOCK, "f8", NUMBER, "size of the step strain of g_simulated"),
     "iterations_simulated": Variable(
@@ -34,6 +39,6 @@ NAMES = {
         BLOCK, "f8", FORCE, "largest scaled torque 2 T / d left after the step strains"
     ),
     "contact_changes": Variable(
-        BLOCK, "i8", NUMBER, "contacts opened or closed by the relaxed step strain"
+        BLOCK, "i8", NUMBER, "number of contacts that the relaxed step strain opened or closed"
     ),
 }

@@ -22,7 +22,7 @@ CONTACTS = ("seed", "event", "contact")
 def _sides(name: str, row: Variable) -> dict[str, Variable]:
     """A row for the state before an event, and one for the state after it.
 
-    The two have different numbers of contacts, and so dimensions of their own for them.
+    The two states have different numbers of contacts, hence two dimensions of contacts.
     """
     rows = {}
     for side in ("before", "after"):
@@ -34,25 +34,39 @@ def _sides(name: str, row: Variable) -> dict[str, Variable]:
 
 NAMES = {
     # the curve
-    "curve_strain": Variable(STATE, "f8", NUMBER, "strain of a state of the curve; NaN: none"),
-    "curve_stress_xy": Variable(STATE, "f8", MODULUS, "stress sigma_xy of a state"),
-    "curve_stress_yx": Variable(STATE, "f8", MODULUS, "stress sigma_yx of a state"),
-    "curve_pressure": Variable(STATE, "f8", MODULUS, "pressure (sigma_xx + sigma_yy) / -2"),
-    "curve_g_xy": Variable(STATE, "f8", MODULUS, "rigidity d sigma_xy / d strain of a state"),
-    "curve_g_yx": Variable(STATE, "f8", MODULUS, "rigidity d sigma_yx / d strain of a state"),
-    "curve_energy": Variable(STATE, "f8", ENERGY, "energy stored in the contacts"),
+    "curve_strain": Variable(STATE, "f8", NUMBER, "strain of a state of the curve; NaN: no state"),
+    "curve_stress_xy": Variable(STATE, "f8", MODULUS, "stress sigma_xy of a state of the curve"),
+    "curve_stress_yx": Variable(STATE, "f8", MODULUS, "stress sigma_yx of a state of the curve"),
+    "curve_pressure": Variable(
+        STATE, "f8", MODULUS, "pressure -(sigma_xx + sigma_yy) / 2 of a state of the curve"
+    ),
+    "curve_g_xy": Variable(
+        STATE, "f8", MODULUS, "rigidity d sigma_xy / d strain of a state of the curve"
+    ),
+    "curve_g_yx": Variable(
+        STATE, "f8", MODULUS, "rigidity d sigma_yx / d strain of a state of the curve"
+    ),
+    "curve_energy": Variable(
+        STATE, "f8", ENERGY, "energy stored in the contacts of a state of the curve"
+    ),
     "curve_contact_number": Variable(
-        STATE, "f8", NUMBER, "mean number of contacts of the grains that carry load"
+        STATE, "f8", NUMBER, "mean number of contacts of the grains that carry a load"
     ),
     "curve_lowest_eigenvalue": Variable(
-        STATE, "f8", MODULUS, "smallest eigenvalue of the Jacobian but its translations"
+        STATE, "f8", MODULUS, "smallest eigenvalue of the Jacobian apart from those of translations"
     ),
     "curve_count": Variable(BLOCK, "i8", NUMBER, "number of states of the curve"),
     "coarse_strain": Variable(
-        ("seed", "coarse_state"), "f8", NUMBER, "strain of a state, events not bracketed"
+        ("seed", "coarse_state"),
+        "f8",
+        NUMBER,
+        "strain of a state of the run whose events are not bracketed",
     ),
     "coarse_stress": Variable(
-        ("seed", "coarse_state"), "f8", MODULUS, "(sigma_xy + sigma_yx) / 2 of such a state"
+        ("seed", "coarse_state"),
+        "f8",
+        MODULUS,
+        "(sigma_xy + sigma_yx) / 2 of a state of the run whose events are not bracketed",
     ),
     # events
     "event_count": Variable(BLOCK, "i8", NUMBER, "number of plastic events"),
@@ -60,52 +74,78 @@ NAMES = {
         EVENT,
         "i1",
         NUMBER,
-        "1: the stress fell; 2: the rigidity fell by 1e-2; 3: both; 0: no event",
+        "kind of an event; 1: the stress fell, 2: the rigidity fell by 1e-2, 3: both, 0: no event",
     ),
-    "event_opened": Variable(EVENT, "i8", NUMBER, "contacts that opened in an event"),
-    "event_closed": Variable(EVENT, "i8", NUMBER, "contacts that closed in an event"),
+    "event_opened": Variable(EVENT, "i8", NUMBER, "number of contacts that opened in an event"),
+    "event_closed": Variable(EVENT, "i8", NUMBER, "number of contacts that closed in an event"),
     "event_reopened": Variable(
-        EVENT, "i8", NUMBER, "contacts that opened in an event and closed again"
+        EVENT, "i8", NUMBER, "number of contacts that opened and closed again in an event"
     ),
     **_sides("event_strain", Variable(EVENT, "f8", NUMBER, "strain")),
     **_sides("event_stress", Variable(EVENT, "f8", MODULUS, "(sigma_xy + sigma_yx) / 2")),
     **_sides("event_g", Variable(EVENT, "f8", MODULUS, "(g_xy + g_yx) / 2")),
     **_sides("event_energy", Variable(EVENT, "f8", ENERGY, "energy stored in the contacts")),
-    **_sides("event_lowest_eigenvalue", Variable(EVENT, "f8", MODULUS, "smallest eigenvalue")),
+    **_sides(
+        "event_lowest_eigenvalue",
+        Variable(EVENT, "f8", MODULUS, "smallest eigenvalue of J apart from translations"),
+    ),
     **_sides("event_asymmetry", Variable(EVENT, "f8", NUMBER, "max |J - J^T| / max |J|")),
     "event_complex_pairs_after": Variable(
         EVENT,
         "f8",
         NUMBER,
-        "complex pairs of eigenvalues of J / M after an event; NaN: not counted",
+        "number of complex pairs of eigenvalues of J / M after an event; NaN: not counted",
     ),
     **_sides("event_rotation", Variable(GRAINS, "f8", LENGTH, "rotation l of every grain")),
     **_sides("event_fraction", Variable((*GRAINS, "axis"), "i8", BOX_FRACTION, "grain position")),
-    **_sides("event_contact_i", Variable(CONTACTS, "i4", NUMBER, "grain i of a contact; -1: none")),
-    **_sides("event_contact_j", Variable(CONTACTS, "i4", NUMBER, "grain j of a contact; -1: none")),
+    **_sides(
+        "event_contact_i", Variable(CONTACTS, "i4", NUMBER, "grain i of a contact (-1: no contact)")
+    ),
+    **_sides(
+        "event_contact_j", Variable(CONTACTS, "i4", NUMBER, "grain j of a contact (-1: no contact)")
+    ),
     **_sides(
         "event_spring_state",
-        Variable(CONTACTS, "f8", SPRING_STATE, "tangential displacement of a contact"),
+        Variable(CONTACTS, "f8", SPRING_STATE, "spring state of a contact"),
     ),
     "event_displacement": Variable(
-        (*GRAINS, "component"), "f8", LENGTH, "displacement in an event, (x, y, l); its mean is 0"
+        (*GRAINS, "component"),
+        "f8",
+        LENGTH,
+        "displacement of every grain in an event, (x, y, l); the mean over grains is 0",
     ),
     "event_quadrupole": Variable(
-        EVENT, "f8", NUMBER, "p_2 of the rotations around the grain that moves farthest; NaN: none"
+        EVENT,
+        "f8",
+        NUMBER,
+        "multipole p_2 of the rotations around the grain that moves farthest; NaN: no event",
     ),
-    "event_other_multipoles": Variable(EVENT, "f8", NUMBER, "mean of their p_1, p_3 and p_4"),
+    "event_other_multipoles": Variable(
+        EVENT, "f8", NUMBER, "mean of the multipoles p_1, p_3 and p_4 around the same grain"
+    ),
     # the last state
     "last_asymmetry": Variable(BLOCK, "f8", NUMBER, "max |J - J^T| / max |J| of the last state"),
     "last_complex_pairs": Variable(
-        BLOCK, "f8", NUMBER, "complex pairs of the last state; NaN: not counted"
+        BLOCK, "f8", NUMBER, "number of complex pairs of the last state; NaN: not counted"
     ),
     # smaller changes
-    "change_count": Variable(BLOCK, "i8", NUMBER, "number of steps with a change"),
-    "change_strain_before": Variable(CHANGE, "f8", NUMBER, "strain before a change; NaN: none"),
-    "change_strain_after": Variable(CHANGE, "f8", NUMBER, "strain after a change"),
-    "change_opened": Variable(CHANGE, "i8", NUMBER, "contacts that opened in a step"),
-    "change_closed": Variable(CHANGE, "i8", NUMBER, "contacts that closed in a step"),
+    "change_count": Variable(
+        BLOCK, "i8", NUMBER, "number of steps in which contacts changed or the packing jumped"
+    ),
+    "change_strain_before": Variable(
+        CHANGE, "f8", NUMBER, "strain before such a step; NaN: no step"
+    ),
+    "change_strain_after": Variable(CHANGE, "f8", NUMBER, "strain after such a step"),
+    "change_opened": Variable(
+        CHANGE, "i8", NUMBER, "number of contacts that opened in such a step"
+    ),
+    "change_closed": Variable(
+        CHANGE, "i8", NUMBER, "number of contacts that closed in such a step"
+    ),
     "change_jumped": Variable(
-        CHANGE, "i1", NUMBER, "1 if the dynamics had to find the balance after a step"
+        CHANGE,
+        "i1",
+        NUMBER,
+        "1 if the damped dynamics had to find the equilibrium after the step, else 0",
     ),
 }
