@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from argparse import Namespace
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 import netCDF4
 import numpy as np
@@ -56,10 +56,10 @@ def _outcome(file: netCDF4.Dataset) -> Iterator[tuple[str, str]]:
             yield name, f"{np.count_nonzero(values == 1)} of {np.count_nonzero(values >= 0)}"
 
 
-def _table(rows) -> Iterator[str]:
-    rows = [[str(cell) for cell in row] for row in rows]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
+def _table(rows: Iterable[Sequence[object]]) -> Iterator[str]:
+    lines = [[str(cell) for cell in row] for row in rows]
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    for row in lines:
         cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
         yield f"  {'  '.join(cells)}".rstrip()
 

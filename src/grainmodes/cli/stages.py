@@ -9,6 +9,7 @@ from pathlib import Path
 
 from grainmodes.configuration import ConfigurationError, check_point, stage_settings
 from grainmodes.dataset.files import Block, BlockError, read_block, write_block
+from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.stages import STAGES, Stage
 from grainmodes.stages import load
 
@@ -63,12 +64,15 @@ def response(arguments: Namespace) -> None:
             write_block(arguments.output, load(stage.function)(block, settings.law, **keywords))
 
 
-def _resume(stage: Stage, block: Block, law, keywords: dict, arguments: Namespace) -> None:
+def _resume(
+    stage: Stage, block: Block, law: ContactLaw, keywords: dict[str, object], arguments: Namespace
+) -> None:
     """Compute a stage of long samples from its checkpoints, if there are any."""
     from grainmodes.stages.checkpoints import CheckpointFiles, fingerprint
 
     start = (law, keywords["choices"], fingerprint(block))
-    checkpoints = CheckpointFiles(arguments.output, start, arguments.checkpoint_every)
+    every = arguments.checkpoint_every
+    checkpoints: CheckpointFiles = CheckpointFiles(arguments.output, start, every)
     made = load(stage.function)(block, law, checkpoints=checkpoints, **keywords)
     write_block(arguments.output, made)
     checkpoints.discard()

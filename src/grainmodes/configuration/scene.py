@@ -81,7 +81,7 @@ class Scene:
         """
         entry = STAGES[stage]
         protocol = asdict(self.protocol)
-        part = {
+        part: dict[str, dict[str, object]] = {
             "contact_law": self._law() if entry.observable else {"normal": self.law.normal},
             "protocol": {name: protocol[name] for name in entry.parts("protocol")},
         }
@@ -91,7 +91,7 @@ class Scene:
             part["observables"] = {name: observables[name] for name in names}
             # A spectrum that no grid requests is made all the same when its path is requested.
             if part["observables"].get("spectrum") == "none":
-                part["observables"]["spectrum"] = entry.default or "modes"
+                part["observables"]["spectrum"] = "modes"
         return json.dumps(part, sort_keys=True)
 
     def summary(self) -> str:

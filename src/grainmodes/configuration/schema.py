@@ -7,10 +7,11 @@ defaults against those of `grainmodes.parameters`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from copy import deepcopy
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -57,7 +58,7 @@ def point_rule(name: str) -> dict:
     return schema()["properties"]["grids"]["items"]["properties"][name]["items"]
 
 
-def complete(value, rule: dict):
+def complete(value: Any, rule: dict) -> Any:
     """`value` with the defaults of its absent keys, and with numbers where text spells a number.
 
     YAML 1.1 reads 1e-8 as a text (it wants 1.0e-8), which no user means.
@@ -69,7 +70,7 @@ def complete(value, rule: dict):
     return _number(value, _types(rule))
 
 
-def mistakes(value, rule: dict) -> list[str]:
+def mistakes(value: object, rule: dict) -> list[str]:
     """One sentence per key that breaks its rule: the key, what is expected, its value."""
     from jsonschema import Draft202012Validator
 
@@ -97,7 +98,7 @@ def expected(rule: dict) -> str:
     return f"{kind}{_range(rule)}{unit}"
 
 
-def _in_full(rule):
+def _in_full(rule: Any) -> Any:
     """A part of the schema with the file that `$ref` names in the place of every reference."""
     if not isinstance(rule, dict):
         return rule
@@ -119,7 +120,7 @@ def _types(rule: dict) -> list[str]:
     return [types] if isinstance(types, str) else types
 
 
-def _number(value, types: list[str]):
+def _number(value: Any, types: list[str]) -> Any:
     """The number that a text spells where one is wanted, whole where it must be.
 
     A NaN becomes a text: it would pass every range, since all comparisons with it are false.
@@ -135,7 +136,7 @@ def _number(value, types: list[str]):
     return int(number) if "integer" in types and number.is_integer() else number
 
 
-def _sentences(error) -> Iterator[str]:
+def _sentences(error: Any) -> Iterator[str]:
     key = _key(error.absolute_path)
     where = f"{key}: " if key else ""
     if error.validator == "additionalProperties":
@@ -154,12 +155,12 @@ def _sentences(error) -> Iterator[str]:
         yield f"{key or 'the scene'}: expected {what}, got {got}"
 
 
-def _key(path) -> str:
+def _key(path: Iterable[str | int]) -> str:
     text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
     return text.removeprefix(".")
 
 
-def _shown(value) -> str:
+def _shown(value: object) -> str:
     text = repr(value)
     return text if len(text) <= 60 else f"{text[:57]}..."
 

@@ -45,7 +45,7 @@ def _response(
     scene: Scene, table: Table, place: int, stage: str, points: list[Point], sizes: list[int]
 ) -> Item:
     """A stage at some points, each in blocks of so many samples."""
-    kind = scene.grids[place].observables["spectrum"]
+    kind = str(scene.grids[place].observables["spectrum"])
     used, chains = set(), []
     for point in points:
         units = work(stage, kind, point.n, point.kt, scene.protocol, table)

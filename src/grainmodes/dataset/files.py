@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import netCDF4
 import numpy as np
@@ -29,12 +30,12 @@ class Block:
     """Arrays by name, and the attributes that say where they come from."""
 
     variables: dict[str, np.ndarray]
-    attributes: dict[str, object]
+    attributes: dict[str, Any]
 
     def mapping(self, name: str) -> dict:
         """An attribute that is a dictionary: as made, or as the JSON text that a file holds."""
-        value = self.attributes.get(name, {})
-        return json.loads(value) if isinstance(value, str) else dict(value)
+        value: Any = self.attributes.get(name, {})
+        return dict(json.loads(value) if isinstance(value, str) else value)
 
 
 def write_block(path: str | Path, block: Block) -> None:
@@ -84,7 +85,9 @@ def _write(file: netCDF4.Dataset, block: Block) -> None:
                     f"{name}: expected length {len(file.dimensions[dimension])} of dimension "
                     f"{dimension} as in the variables before it, got {length}"
                 )
-        compressed = {"zlib": True, "complevel": 1, "shuffle": True} if array.ndim > 1 else {}
+        compressed: dict[str, Any] = (
+            {"zlib": True, "complevel": 1, "shuffle": True} if array.ndim > 1 else {}
+        )
         variable = file.createVariable(name, row.dtype, row.dimensions, **compressed)
         variable.units = row.unit.text(laws)
         variable.long_name = row.long_name

@@ -69,7 +69,9 @@ def _after(name: str, unit: Unit, meaning: str) -> dict[str, Variable]:
     }
 
 
-def _sides(name: str, dimensions: tuple[str, ...], dtype: str, unit: Unit, meaning: str):
+def _sides(
+    name: str, dimensions: tuple[str, ...], dtype: str, unit: Unit, meaning: str
+) -> dict[str, Variable]:
     """Rows for the start and the end of the run without damping."""
     rows = {}
     for side, words in (("before", "at the start"), ("after", "at the end")):

@@ -12,6 +12,7 @@ A modulus in two dimensions is a force per length: k_N d^(1/2) or k_N.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
@@ -71,10 +72,11 @@ class Unit:
         {'k_N': '-1/2', 'd': '-1/4', 'm': '1/2'}
         """
         length = self.length + FORCE_EXPONENT[normal] * self.force
-        powers = {"k_N": self.force, "d": length, "m": self.mass}
+        powers: dict[str, Fraction | int] = {"k_N": self.force, "d": length, "m": self.mass}
         return {name: Fraction(power) for name, power in powers.items()}
 
     def _product(self, laws: Laws) -> str:
+        powers: Mapping[str, Fraction | int]
         if laws.normal in FORCE_EXPONENT:
             powers = self.powers(laws.normal)
         else:

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
+
+if TYPE_CHECKING:
+    from grainmodes.packing.contacts import History
 
 
 class PackingError(ValueError):
@@ -36,7 +41,7 @@ def to_step(value: np.ndarray) -> np.ndarray:
     return np.where(step < 2.0**63, step, -(2.0**63)).astype(np.int64)
 
 
-def check_grains(position, diameter, mass) -> None:
+def check_grains(position: np.ndarray, diameter: np.ndarray, mass: np.ndarray) -> None:
     """Refuse positions (N, 2), diameters and masses (N,) that cannot be grains."""
     n = len(diameter)
     if position.shape != (n, 2) or mass.shape != (n,):
@@ -56,16 +61,18 @@ def check_grains(position, diameter, mass) -> None:
             )
 
 
-def check_rotation(rotation) -> None:
+def check_rotation(rotation: np.ndarray | None) -> None:
     """Refuse rotations (N,), if there are any, that are NaN or infinite."""
-    bad = [] if rotation is None else np.flatnonzero(~np.isfinite(rotation))
+    if rotation is None:
+        return
+    bad = np.flatnonzero(~np.isfinite(rotation))
     if len(bad):
         raise PackingError(
             f"rotation of grain {bad[0]}: expected a finite number, got {rotation[bad[0]]}"
         )
 
 
-def check_springs(history) -> None:
+def check_springs(history: History | None) -> None:
     """Refuse a history, if there is one, with a spring state that is NaN or infinite."""
     if history is None:
         return

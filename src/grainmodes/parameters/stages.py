@@ -262,8 +262,9 @@ def observable_keys(stages: Iterable[Stage]) -> dict[str, dict[str, object]]:
     """Keys of `grids.observables` → their rules in the schema of a scene."""
     rules: dict[str, dict[str, object]] = {}
     for stage in stages:
-        values = {"enum": list(stage.kinds)} if stage.kinds else {"type": "boolean"}
-        rules[stage.observable] = {"description": stage.sentence, "default": stage.default} | values
+        rule: dict[str, object] = {"description": stage.sentence, "default": stage.default}
+        rule |= {"enum": list(stage.kinds)} if stage.kinds else {"type": "boolean"}
+        rules[stage.observable] = rule
         for option, meaning in stage.options.items():
             rules[option] = {"description": meaning, "type": "boolean", "default": False}
     return rules

@@ -33,6 +33,7 @@ def mode_sum(
     """
     step = _step(packing, interaction, threshold, loaded)
     elastic = elastic_modes(spectrum.eigenvalue)
+    assert spectrum.modes is not None  # the method is "dense"
     modes = spectrum.modes[:, elastic]
     weight = modes.T @ step.force.ravel() / spectrum.eigenvalue[elastic]
     return step.moduli(modes @ weight)
@@ -68,6 +69,7 @@ class ModeRigidity:
         elastic = elastic_modes(spectrum.eigenvalue)
         if np.any(spectrum.eigenvalue[elastic] == 0.0):
             raise ArithmeticError("some modes lie below the lowest safe edge: no sum over modes")
+        assert spectrum.projection is not None  # `forces` was projected
         product = spectrum.projection[elastic].prod(axis=1) / spectrum.eigenvalue[elastic]
         shares = np.zeros(len(spectrum.eigenvalue))
         shares[elastic] = -product / self._area

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import asdict, replace
+from typing import Any
 
 import numpy as np
 
@@ -54,7 +55,7 @@ class Attempts:
     def __init__(self):
         self.sentences: list[str] = []
 
-    def __call__(self, instead, probe: Callable, *arguments):
+    def __call__(self, instead: Any, probe: Callable, *arguments: Any) -> Any:
         """What the probe returns, or `instead`."""
         try:
             return probe(*arguments)
@@ -85,7 +86,7 @@ def claim_diagnostics_block(
 
 def unjammed(packing: Packing, law: ContactLaw) -> dict[str, object]:
     """The row of a packing that is not jammed."""
-    row = {"g_forward_by_strain": np.zeros(len(STRAINS))}
+    row: dict[str, object] = {"g_forward_by_strain": np.zeros(len(STRAINS))}
     if packing.n <= DENSE:
         row |= {"g_translational": 0.0}
     if law.frictional and packing.n <= COMPRESSED:
@@ -139,6 +140,7 @@ def translational_rigidity(packing: Packing, interaction: Interaction, threshold
     """g where the modes with ψ^T > 1/2 alone respond."""
     by_mode = ModeRigidity(packing, interaction, threshold)
     found = packing_spectrum(packing, interaction, threshold, forces=by_mode.forces)
+    assert found.psi_rotational is not None  # all modes are requested
     translational = found.psi_rotational < 0.5
     return by_mode.g_affine + float(by_mode.contributions(found)[translational].sum())
 

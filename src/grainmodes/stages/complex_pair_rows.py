@@ -133,6 +133,8 @@ def _unstable_state(chosen: Chosen | None) -> dict[str, object]:
         return {"unstable_found": False}
     equilibrium = chosen.state.equilibrium
     packing, side = equilibrium.packing, chosen.state.side(chosen.place)
+    springs = packing.history
+    assert springs is not None  # without them J is symmetric and has no complex pair
     plane = plane_near(
         mass_weighted_jacobian(equilibrium.matrix, equilibrium.backbone.mass), side.plane
     )
@@ -142,9 +144,9 @@ def _unstable_state(chosen: Chosen | None) -> dict[str, object]:
         "unstable_strain": packing.strain,
         "unstable_fraction": packing.fraction.T,
         "unstable_rotation": packing.rotation,
-        "unstable_contact_i": packing.history.i,
-        "unstable_contact_j": packing.history.j,
-        "unstable_spring_state": packing.history.spring_state,
+        "unstable_contact_i": springs.i,
+        "unstable_contact_j": springs.j,
+        "unstable_spring_state": springs.spring_state,
         "unstable_eigenvalue_real": plane.values[0].real,
         "unstable_eigenvalue_imag": plane.values[0].imag,
         "unstable_condition": plane.condition,

@@ -45,7 +45,12 @@ def event_detail_block(packings: Block, law: ContactLaw, choices: Shear) -> Bloc
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, interaction)
-        row = {"event_count": 0, "path_count": 0, "jammed": jammed, "converged": True}
+        row: dict[str, object] = {
+            "event_count": 0,
+            "path_count": 0,
+            "jammed": jammed,
+            "converged": True,
+        }
         if not jammed:
             return row | _grains(packing)
         brackets, refined = (
@@ -89,12 +94,14 @@ def _bracket_values(bracket: Bracket) -> tuple[float, float, int, int, int]:
     if event is None:
         return np.nan, np.nan, 0, 0, 0
     before, after = bracket.before, bracket.after
+    assert before is not None and after is not None  # both exist where there is an event
     return before.sigma, after.sigma, event.kind, event.opened, event.closed
 
 
 def _event(bracket: Bracket, choices: Shear) -> dict[str, object]:
     """The event, the states around it and its fields; grains where they are just after it."""
     event, before, after = bracket.event, bracket.before, bracket.after
+    assert event is not None and before is not None and after is not None
     (mode_before, vector_before), (mode_after, vector_after) = map(lowest_mode_of, (before, after))
     overlap = np.nansum(vector_before * vector_after)
     return _grains(event.after) | {

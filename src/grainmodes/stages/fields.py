@@ -56,7 +56,9 @@ def _grains(packing: Packing) -> dict[str, object]:
     }
 
 
-def _modes(packing: Packing, interaction, frequencies: tuple[float, ...], threshold: int) -> dict:
+def _modes(
+    packing: Packing, interaction: Interaction, frequencies: tuple[float, ...], threshold: int
+) -> dict[str, object]:
     found = nearest_modes(packing, interaction, frequencies, threshold)
     return {
         "frequency_asked": np.array(frequencies),

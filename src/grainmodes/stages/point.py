@@ -19,9 +19,10 @@ def point_block(
 
     The packings go through the same checkpoints as in a study, so the numbers are the same.
     """
-    start = None
+    start: Block | None = None
     for checkpoint in checkpoints_up_to(phi):
         start = compress_block(n, seeds, checkpoint, protocol.compression, law.normal, start)
+    assert start is not None  # every phi lies above a checkpoint
     packings = packing_block(start, phi, protocol.compression, law.normal)
     made = {STAGES["equilibrate"].name: packings}
     for stage in requested(observables, law.kt):

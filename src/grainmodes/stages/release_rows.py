@@ -103,7 +103,7 @@ def _spectra(run: ReleaseRun) -> dict[str, object]:
 
 def _grain_stresses(run: ReleaseRun) -> dict[str, object]:
     """How the contacts load the grains at the start and at the end of a run."""
-    row = {}
+    row: dict[str, object] = {}
     for side, packing in (("before", run.start.packing), ("after", run.motion.packing)):
         found = grain_stress(packing, run.interaction)
         row |= {

@@ -15,13 +15,16 @@ from grainmodes.runtime.provenance import code_version
 SAMPLE_ERRORS = (ArithmeticError, ValueError, np.linalg.LinAlgError, MemoryError)
 """Errors of a single sample; any other error is a mistake in the code and stops the job."""
 
+Sample = Callable[[int], dict[str, object]]
+"""Row number → values of the row by name."""
+
 FILL = {"f8": np.nan, "i8": 0, "i4": -1, "i1": 0}
 """Value that stands for a number that does not exist, by its type."""
 
 
 def compute_block(
     seeds: Iterable[int],
-    sample: Callable[[int], dict[str, object]],
+    sample: Sample,
     known_failures: dict[str, str],
     attributes: dict[str, object],
 ) -> Block:
@@ -44,7 +47,7 @@ def compute_block(
             except SAMPLE_ERRORS as error:
                 failures[str(seed)] = f"{type(error).__name__}: {error}"
         if "failure" in row:
-            failures[str(seed)] = row.pop("failure")
+            failures[str(seed)] = str(row.pop("failure"))
         rows.append(row)
     variables = {"seed": np.array(seeds)} | _stacked(rows)
     made_by = {"code_version": code_version(), "failures": failures}
@@ -78,9 +81,9 @@ def response_block(
     return compute_block(packings.variables["seed"], sample, failures, attributes)
 
 
-def stage_attributes(stage: str, config: dict, **point: float) -> dict[str, object]:
+def stage_attributes(stage: str, config: dict, **point: object) -> dict[str, object]:
     """The attributes of a block of a stage."""
-    return {"title": f"grainmodes: {stage}", "stage": stage, "config": config} | point
+    return {"title": f"grainmodes: {stage}", "stage": stage, "config": config, **point}
 
 
 def _stacked(rows: list[dict[str, object]]) -> dict[str, np.ndarray]:

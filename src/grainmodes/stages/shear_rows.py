@@ -50,8 +50,12 @@ def bracket_ends(brackets: Sequence[Bracket]) -> dict[str, object]:
     """Both ends of the bracket of the first event at every Δγ_Th; NaN where there is no event."""
     return {
         "bracket_min_step": [b.min_step for b in brackets],
-        "bracket_strain_before": [b.before.strain if b.event else np.nan for b in brackets],
-        "bracket_strain_after": [b.after.strain if b.event else np.nan for b in brackets],
+        "bracket_strain_before": [
+            b.before.strain if b.before and b.event else np.nan for b in brackets
+        ],
+        "bracket_strain_after": [
+            b.after.strain if b.after and b.event else np.nan for b in brackets
+        ],
     }
 
 
@@ -139,9 +143,10 @@ def _springs(packings: Sequence[Packing]) -> dict[str, object]:
     """Rotations and springs of several packings, nothing without friction."""
     if packings[0].rotation is None:
         return {}
-    histories = [packing.history for packing in packings]
+    histories = [packing.history for packing in packings if packing.history is not None]
+    rotations = [packing.rotation for packing in packings if packing.rotation is not None]
     return {
-        "rotation": np.stack([packing.rotation for packing in packings]),
+        "rotation": np.stack(rotations),
         "contact_i": stack_padded([history.i for history in histories], -1),
         "contact_j": stack_padded([history.j for history in histories], -1),
         "spring_state": stack_padded([history.spring_state for history in histories], np.nan),

@@ -138,11 +138,11 @@ def _method_columns(method: str, factorisation: str) -> dict[str, object]:
 def _modes(found: FullSpectrum, columns: int, kind: str) -> dict[str, object]:
     """A row of eigenvalues, with imaginary parts only where J is not symmetric."""
 
-    def padded(series: np.ndarray) -> np.ndarray:
+    def padded(series: np.ndarray | None) -> np.ndarray:
         return stack_padded([series], np.nan, min_shape=(columns,))[0]
 
     values = found.eigenvalue
-    row = {"eigenvalue": padded(values.real), "mode_count": len(values)}
+    row: dict[str, object] = {"eigenvalue": padded(values.real), "mode_count": len(values)}
     if np.iscomplexobj(values):
         row["eigenvalue_imaginary"] = padded(values.imag)
     if kind == "modes":

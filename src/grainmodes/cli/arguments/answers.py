@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentParser
 from pathlib import Path
 
 from grainmodes.cli.arguments import options
+from grainmodes.cli.arguments.options import Commands
 
 
-def define(commands) -> None:
+def define(commands: Commands) -> None:
     """Add these commands."""
     for add in (_show, _cost, _plan):
         add(commands)
 
 
-def _show(commands) -> None:
+def _show(commands: Commands) -> None:
     sentence = "Say what a file holds: names, dimensions, units, provenance, failures."
     command = options.command(commands, "show", "show:show", sentence)
     command.add_argument("file", type=Path, help="any netCDF file of a study")
 
 
-def _cost(commands) -> None:
+def _cost(commands: Commands) -> None:
     sentence = "Say what a scene will cost before it runs: CPU hours, memory, disk."
     command = options.command(commands, "cost", "scenes:cost", sentence)
     command.add_argument("config", type=Path, help="a scene, as config/default.yaml")
@@ -27,7 +29,7 @@ def _cost(commands) -> None:
     _costs(command)
 
 
-def _plan(commands) -> None:
+def _plan(commands: Commands) -> None:
     sentence = "Say how many seeds and CPU hours an accuracy needs, from a pilot ensemble."
     command = options.command(commands, "plan", "scenes:plan", sentence)
     command.add_argument("ensemble", type=Path, help="file of `grainmodes ensemble`")
@@ -41,7 +43,7 @@ def _plan(commands) -> None:
     _costs(command)
 
 
-def _costs(command) -> None:
+def _costs(command: ArgumentParser) -> None:
     command.add_argument(
         "--costs", type=Path, metavar="FILE", help="costs on another machine: `snakemake growth`"
     )

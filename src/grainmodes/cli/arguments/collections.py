@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentParser
 from pathlib import Path
 
 from grainmodes.cli.arguments import options
+from grainmodes.cli.arguments.options import Commands
 from grainmodes.parameters.figures import FIGURES
 
 
-def define(commands) -> None:
+def define(commands: Commands) -> None:
     """Add these commands."""
     for add in (_gather, _ensemble, _figure, _film, _claims):
         add(commands)
 
 
-def _gather(commands) -> None:
+def _gather(commands: Commands) -> None:
     sentence = "Join all blocks of seeds and all observables of one point."
     command = options.command(commands, "gather", "collections:gather", sentence)
     command.add_argument("blocks", type=Path, nargs="+", help="files of pack, rigidity, ...")
     options.output(command)
 
 
-def _ensemble(commands) -> None:
+def _ensemble(commands: Commands) -> None:
     sentence = "Join points into one file with dimensions (n, phi, kt, seed, mode)."
     command = options.command(commands, "ensemble", "collections:ensemble", sentence)
     command.add_argument("points", type=Path, nargs="+", help="files of `grainmodes gather`")
@@ -35,7 +37,7 @@ def _ensemble(commands) -> None:
     options.output(command)
 
 
-def _figure(commands) -> None:
+def _figure(commands: Commands) -> None:
     sentence = "Draw a figure: PNG, PDF, and the plotted numbers as CSV."
     command = options.command(commands, "figure", "collections:figure", sentence)
     command.add_argument("figure", choices=FIGURES, metavar="NAME", help=", ".join(FIGURES))
@@ -50,7 +52,7 @@ def _figure(commands) -> None:
     options.output(command, "path without suffix; .png, .pdf and .csv are written")
 
 
-def _film(commands) -> None:
+def _film(commands: Commands) -> None:
     sentence = "Draw the spirals of a released sample as a film (GIF)."
     command = options.command(commands, "film", "collections:film", sentence)
     command.add_argument("data", type=Path, nargs="+", help="files of `grainmodes release`")
@@ -58,14 +60,14 @@ def _film(commands) -> None:
     options.output(command)
 
 
-def _shown(command) -> None:
+def _shown(command: ArgumentParser) -> None:
     command.add_argument("--n", type=int, help="the number of grains to show")
     command.add_argument("--phi", type=float, help="the area fraction to show")
     command.add_argument("--kt", type=float, nargs="+", help="the tangential stiffnesses to show")
     command.add_argument("--seed", type=int, help="the sample to show")
 
 
-def _claims(commands) -> None:
+def _claims(commands: Commands) -> None:
     sentence = "Check the claims of the papers on an ensemble."
     command = options.command(commands, "claims", "collections:claims", sentence)
     command.add_argument("ensemble", type=Path, help="file of `grainmodes ensemble`")

@@ -4,38 +4,43 @@ from __future__ import annotations
 
 import argparse
 import json
+from argparse import ArgumentParser
 from pathlib import Path
+from typing import TypeAlias
 
 from grainmodes.parameters.grid import parse_seeds
+
+Commands: TypeAlias = "argparse._SubParsersAction[ArgumentParser]"
+"""The place where a parser keeps its commands."""
 
 UNITS = "Units: k_N = m = d = 1, d being the diameter and m the mass of a large grain."
 
 
-def command(commands, name: str, run: str, sentence: str) -> argparse.ArgumentParser:
+def command(commands: Commands, name: str, run: str, sentence: str) -> ArgumentParser:
     """A command that runs `module:function` of `grainmodes.cli`."""
     command = commands.add_parser(name, help=sentence, description=sentence, epilog=UNITS)
     command.set_defaults(run=run)
     return command
 
 
-def n(command) -> None:
+def n(command: ArgumentParser) -> None:
     """`--n`, required."""
     command.add_argument("--n", type=int, required=True, help="number of grains, even")
 
 
-def phi(command) -> None:
+def phi(command: ArgumentParser) -> None:
     """`--phi`, required."""
     command.add_argument("--phi", type=float, required=True, help="area fraction")
 
 
-def kt(command) -> None:
+def kt(command: ArgumentParser) -> None:
     """`--kt`, required."""
     command.add_argument(
         "--kt", type=float, required=True, help="tangential stiffness k_T / k_N; 0: frictionless"
     )
 
 
-def seeds(command) -> None:
+def seeds(command: ArgumentParser) -> None:
     """`--seeds`, required: one or a range."""
     command.add_argument(
         "--seeds",
@@ -47,7 +52,7 @@ def seeds(command) -> None:
     )
 
 
-def settings(command) -> None:
+def settings(command: ArgumentParser) -> None:
     """`--settings`: what deviates from the defaults."""
     command.add_argument(
         "--settings",
@@ -58,7 +63,7 @@ def settings(command) -> None:
     )
 
 
-def checkpoint_every(command) -> None:
+def checkpoint_every(command: ArgumentParser) -> None:
     """`--checkpoint-every`: how often long samples are kept."""
     command.add_argument(
         "--checkpoint-every",
@@ -69,7 +74,7 @@ def checkpoint_every(command) -> None:
     )
 
 
-def output(command, meaning: str = "file to write") -> None:
+def output(command: ArgumentParser, meaning: str = "file to write") -> None:
     """`--output`, required."""
     command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=meaning)
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from grainmodes.cli.arguments import options
+from grainmodes.cli.arguments.options import Commands
 from grainmodes.parameters.law import NORMAL_LAWS, TANGENTIAL_LAWS
 from grainmodes.parameters.spectra import SPECTRA
 from grainmodes.parameters.stages import STAGES, Stage, responses
 
 
-def define(commands) -> None:
+def define(commands: Commands) -> None:
     """Add these commands, in the order in which a sample passes them."""
     _compress(commands)
     _equilibrate(commands)
@@ -19,7 +20,7 @@ def define(commands) -> None:
     _point(commands)
 
 
-def _compress(commands) -> None:
+def _compress(commands: Commands) -> None:
     command = options.command(
         commands, "compress", "stages:compress", "Compress grains to a checkpoint of a trajectory."
     )
@@ -37,7 +38,7 @@ def _compress(commands) -> None:
     options.output(command)
 
 
-def _equilibrate(commands) -> None:
+def _equilibrate(commands: Commands) -> None:
     sentence = "Bring a checkpoint to an area fraction, in force balance."
     command = options.command(commands, "equilibrate", "stages:equilibrate", sentence)
     command.add_argument("start", type=Path, help="the checkpoint at or below --phi")
@@ -46,7 +47,7 @@ def _equilibrate(commands) -> None:
     options.output(command)
 
 
-def _response(commands, stage: Stage) -> None:
+def _response(commands: Commands, stage: Stage) -> None:
     """The command of an entry of the table of stages."""
     read = STAGES[stage.reads]
     command = options.command(commands, stage.command, "stages:response", stage.sentence)
@@ -66,7 +67,7 @@ def _response(commands, stage: Stage) -> None:
     options.output(command)
 
 
-def _point(commands) -> None:
+def _point(commands: Commands) -> None:
     sentence = "Everything of one point of the grid, from random grains on, in one go."
     command = options.command(commands, "point", "stages:point", sentence)
     options.n(command)
