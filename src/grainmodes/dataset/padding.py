@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 def stack_padded(
     rows: Sequence[ArrayLike | None],
     fill: float,
-    dtype: DTypeLike = None,
+    dtype: DTypeLike | None = None,
     min_shape: tuple[int, ...] | None = None,
 ) -> NDArray:
     """Rows of different shapes along a new first axis, each at the start of its place.
@@ -35,5 +35,5 @@ def stack_padded(
     stacked = np.full((len(arrays), *shape), fill, present[0].dtype if present else dtype)
     for place, array in enumerate(arrays):
         if array is not None:
-            stacked[(place, *map(slice, array.shape))] = array
+            stacked[place][tuple(map(slice, array.shape))] = array
     return stacked

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from grainmodes.runtime.provenance import code_version
 SAMPLE_ERRORS = (ArithmeticError, ValueError, np.linalg.LinAlgError, MemoryError)
 """Errors of a single sample; any other error is a mistake in the code and stops the job."""
 
-Sample = Callable[[int], dict[str, object]]
+Sample = Callable[[int], dict[str, Any]]
 """Row number → values of the row by name."""
 
 FILL = {"f8": np.nan, "i8": 0, "i4": -1, "i1": 0}
@@ -40,7 +41,7 @@ def compute_block(
     """
     seeds, failures, rows = list(seeds), dict(known_failures), []
     for number, seed in enumerate(seeds):
-        row: dict[str, object] = {}
+        row: dict[str, Any] = {}
         if str(seed) not in failures:
             try:
                 row = sample(number)

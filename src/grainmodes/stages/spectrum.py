@@ -172,6 +172,6 @@ def _unjammed_row(kind: str, edges: np.ndarray, columns: int) -> dict[str, objec
     if kind not in BINNED:
         row = _modes(FullSpectrum(none, none, none, 0.0, method="auto"), columns, kind)
         return row | ({"g_mode_sum": 0.0} if kind == "modes" else {})
-    averages = [np.full(len(edges) - 1, np.nan)] * 4
-    no_modes = BinnedAverages(edges, np.zeros(len(edges) - 1, int), 0, 0, *averages, method="auto")
+    count, nan = np.zeros(len(edges) - 1, int), np.full(len(edges) - 1, np.nan)
+    no_modes = BinnedAverages(edges, count, 0, 0, nan, nan, nan, nan, method="auto")
     return _bins(no_modes, kind)
