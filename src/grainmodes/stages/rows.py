@@ -60,7 +60,7 @@ def response_block(
     stage: str,
     config: dict,
     law: ContactLaw,
-    sample: Callable[[int], dict[str, object]],
+    sample: Sample,
 ) -> Block:
     """The block of an observable of `packings`, with the parameters of the packings.
 
@@ -87,7 +87,7 @@ def stage_attributes(stage: str, config: dict, **point: object) -> dict[str, obj
     return {"title": f"grainmodes: {stage}", "stage": stage, "config": config, **point}
 
 
-def _stacked(rows: list[dict[str, object]]) -> dict[str, np.ndarray]:
+def _stacked(rows: list[dict[str, Any]]) -> dict[str, np.ndarray]:
     """Arrays over all rows; shorter rows, and rows without a name, are filled up."""
     names = list(dict.fromkeys(name for row in rows for name in row)) or ["converged"]
     dtypes = {name: VARIABLES[name].dtype for name in names}
