@@ -20,7 +20,8 @@ def rigidity_block(packings: Block, law: ContactLaw, rattlers: Rattlers) -> Bloc
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, interaction)
         force = largest(net_force(packing, interaction))
-        row = {"jammed": jammed, "converged": True, "max_force": force[0], "max_torque": force[1]}
+        row: dict[str, object] = {"jammed": jammed, "converged": True}
+        row |= {"max_force": force[0], "max_torque": force[1]}
         if not jammed:
             return row | dict.fromkeys([*_moduli_names(""), *_moduli_names("_loaded")], 0.0)
         moduli = rigidity(packing, interaction, rattlers.largest(law))
