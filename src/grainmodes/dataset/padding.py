@@ -35,5 +35,6 @@ def stack_padded(
     stacked = np.full((len(arrays), *shape), fill, present[0].dtype if present else dtype)
     for place, array in enumerate(arrays):
         if array is not None:
-            stacked[place][tuple(map(slice, array.shape))] = array
+            covered: tuple[int | slice, ...] = (place, *map(slice, array.shape))
+            stacked[covered] = array
     return stacked
