@@ -23,7 +23,7 @@ from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.pair_tracking.tracking import PairWalk
+from grainmodes.protocols.pair_tracking.tracking import PairTracking
 from grainmodes.relaxation.dynamics import move
 from measurements.accuracy.packings import compressed
 
@@ -79,10 +79,10 @@ class UnstableState(NamedTuple):
 
 def unstable_state(n: int, seed: int) -> UnstableState | None:
     """The state along a shear that is released; None if it grows too slowly."""
-    walk = PairWalk.start(compressed(n, seed, 0.9, GRAINS), INTERACTION, SHEAR, PAIRS)
-    while not walk.done:
-        walk.advance()
-    found = walk.unstable
+    tracking = PairTracking.start(compressed(n, seed, 0.9, GRAINS), INTERACTION, SHEAR, PAIRS)
+    while not tracking.done:
+        tracking.advance()
+    found = tracking.candidate
     if found is None or found.growth < MIN_GROWTH_RATE:
         return None
     pairs, packing = found.state.pairs, found.state.equilibrium.packing

@@ -32,8 +32,8 @@ from grainmodes.protocols.compression.trajectory import (
     compress_to,
     place_at_random,
 )
-from grainmodes.protocols.pair_tracking.detection import DETECTORS, seen_by
-from grainmodes.protocols.pair_tracking.tracking import PairWalk
+from grainmodes.protocols.pair_tracking.detection import DETECTORS, detect_pairs
+from grainmodes.protocols.pair_tracking.tracking import PairTracking
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 from grainmodes.relaxation.dynamics import move
@@ -201,7 +201,7 @@ def pairs_along(n: int, detection: str, strain: float = 0.02) -> float:
     """Complex pairs of every state of a shear in steps of 1e-4, C's grains and law, μ = 10."""
     choices = replace(SHEAR_OF_C, strain=strain)
     pair_choices = PairChoices(detection, max_located=0)
-    run = PairWalk.start(packing_of_c(n), INTERACTION_OF_C, choices, pair_choices)
+    run = PairTracking.start(packing_of_c(n), INTERACTION_OF_C, choices, pair_choices)
 
     def follow():
         while not run.done:
@@ -235,7 +235,7 @@ def pairs_of_one_state(n: int, detection: str) -> float:
     now = first_equilibrium(packing_of_c(n), INTERACTION_OF_C, SHEAR_OF_C)
     for step in range(1, 101):
         now, _ = step_to(step * SHEAR_OF_C.step, now, SHEAR_OF_C)
-    return cpu(seen_by, DETECTORS[detection](), now)
+    return cpu(detect_pairs, DETECTORS[detection](), now)
 
 
 HARMONIC = Interaction.from_law(ContactLaw("harmonic", "elastic", 1.0))

@@ -20,7 +20,7 @@ from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, ExceptionalPoint
-from grainmodes.protocols.pair_tracking.tracking import PairWalk
+from grainmodes.protocols.pair_tracking.tracking import PairTracking
 from grainmodes.relaxation.frictionless import relax_fire_newton
 from grainmodes.spectrum import Eigenproblem, slice_eigenpairs, spectrum_slicing
 from grainmodes.stages.compression import compress_block
@@ -72,15 +72,15 @@ def test_a_crystal_has_every_eigenvalue_as_often_as_it_is_counted():
 def born(bracket: float) -> ExceptionalPoint:
     """The first birth of a pair among sixteen grains under the law of C, μ = 10."""
     interaction = Interaction.from_law(ContactLaw("hertz", "smoothed_coulomb", 2 / 7, 10.0))
-    walk = PairWalk.start(
+    tracking = PairTracking.start(
         quenched(16, 0.9),
         interaction,
         Shear(strain=4.5e-3, step=5e-4),
         PairChoices(bracket=bracket),
     )
-    while not walk.located:
-        walk.advance()
-    return walk.located[0].point
+    while not tracking.located:
+        tracking.advance()
+    return tracking.located[0].point
 
 
 def test_an_exceptional_point_is_found_to_1e_12():
@@ -88,8 +88,8 @@ def test_an_exceptional_point_is_found_to_1e_12():
     points = [born(bracket) for bracket in (1e-9, 1e-12, 1e-13)]
     assert all(point.kind == COALESCENCE for point in points)
     assert np.ptp([point.strain for point in points]) < 1e-12
-    ends = points[0].near[0], points[0].near[-1]
-    before, after = (np.sqrt(abs(end.plane.discriminant)) for end in ends)
+    ends = points[0].neighbours[0], points[0].neighbours[-1]
+    before, after = (np.sqrt(abs(end.subspace.discriminant)) for end in ends)
     straight = np.interp(0.0, [-before, after], [end.distance for end in ends])
     assert abs(straight) > 1e-9
 

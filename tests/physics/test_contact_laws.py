@@ -11,7 +11,7 @@ from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.compression.trajectory import compress_to, place_at_random
-from grainmodes.protocols.law_comparison.comparison import Seen, variant
+from grainmodes.protocols.law_comparison.comparison import ComparedState, shear_under_law
 
 KT = 2 / 7
 CHOICES = Shear(strain=0.012, step=2e-4)
@@ -29,15 +29,15 @@ def grains_of_c(normal: str) -> Packing:
 
 
 @cache
-def seen(normal: str, tangential: str, mu: float | None = None) -> list[Seen]:
+def seen(normal: str, tangential: str, mu: float | None = None) -> list[ComparedState]:
     """The states along the way under a law."""
     interaction = Interaction.from_law(ContactLaw(normal, tangential, KT, mu))
-    found = variant(grains_of_c(normal), interaction, CHOICES)
+    found = shear_under_law(grains_of_c(normal), interaction, CHOICES)
     assert not found.ending
-    return found.seen
+    return found.states
 
 
-def growth_over_rate(states: list[Seen]) -> np.ndarray:
+def growth_over_rate(states: list[ComparedState]) -> np.ndarray:
     return np.array([state.growth / state.rate for state in states if state.pairs_slipping])
 
 

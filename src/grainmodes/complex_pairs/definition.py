@@ -26,7 +26,7 @@ import numpy as np
 import scipy.linalg
 import scipy.sparse as sparse
 
-from grainmodes.response.stability import REAL, asymmetry
+from grainmodes.response.stability import REAL_TOLERANCE, asymmetry
 
 SYMMETRY_TOLERANCE = 1e-14
 """max|K − Kᵀ| / max|K| up to which K counts as symmetric."""
@@ -97,7 +97,7 @@ def dense_eigenpairs(matrix: sparse.csr_array) -> tuple[np.ndarray, np.ndarray, 
 
 def select_pairs(value: np.ndarray, right: np.ndarray, left: np.ndarray) -> ComplexPairs:
     """The complex pairs among eigenvalues (M,) with vectors (n, M), scaled to vᴴu = 1."""
-    upper = np.flatnonzero(value.imag > REAL)
+    upper = np.flatnonzero(value.imag > REAL_TOLERANCE)
     upper = upper[np.argsort(value.real[upper], kind="stable")]
     right = right[:, upper] / np.linalg.norm(right[:, upper], axis=0)
     products = np.einsum("np,np->p", left[:, upper].conj(), right)

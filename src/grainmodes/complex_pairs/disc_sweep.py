@@ -1,22 +1,22 @@
-"""Every complex pair of one large K, disc by disc, without a dense general solve.
+"""All complex pairs of one large K by a disc sweep, without a dense general eigensolver.
 
-Discs on the real axis that overlap (`discs`) go up the whole spectrum,
+Overlapping discs on the real axis (`arnoldi_discs`) go up the whole spectrum,
 
-    σ' = σ + (1 + STEP) ρ,   the gap halved where the next disc, radius ρ', does not reach back,
+    σ' = σ + (1 + SHIFT_SPACING) ρ,   the gap halved where the next disc, of radius ρ', leaves one,
 
-and each is taken between two cuts, in the widest gaps of the overlaps. Nothing is known of K
-beforehand, and what is found is as exact as LAPACK's. That nothing is missing or counted twice is
-seen from three numbers of K that are known without any solution:
+and each keeps the eigenvalues between two cuts, in the widest gaps of the overlaps. Nothing has to
+be known of K beforehand, and the eigenvalues are as exact as those of LAPACK. Three numbers of K
+that are known without any solution certify that none is missing and none is counted twice:
 
     their number M,   Σλ = tr K,   Σλ² = tr K²
 
 Above the overlaps, where the discs reach up less than half as far as in their middles, and above
-the discs a few pairs are missing. Discs above the axis look for them, at the cuts and at a height
-of `TALL` times their distance, then at every third cut three times as high, and so on, which
-leaves no gap up to any height; the search ends as soon as the number is right.
+the discs a few pairs are missing. Discs above the axis find them. They stand at the cuts, at
+`HEIGHT_PER_SPACING` times their distance, then at every third cut three times as high, and so on,
+which leaves no gap up to any height. The search ends as soon as the number is right.
 
-What it can miss are pairs that have just met: those with λ_i below 1e-6 max|K|, the root of what
-the factors are off by, may be taken for two real eigenvalues, as LAPACK takes those below 1e-8.
+What it can miss are pairs that have just met: those with λ_i below 1e-6 max|K|, the root of the
+error of the factors, may be taken for two real eigenvalues, as LAPACK takes those below 1e-8.
 
 | symbol | name          | meaning                                  |
 | ------ | ------------- | ---------------------------------------- |
@@ -32,56 +32,66 @@ from itertools import pairwise
 import numpy as np
 import scipy.sparse as sparse
 
-from grainmodes.complex_pairs.arnoldi_discs import REACH, SAME, Disc, Discs
+from grainmodes.complex_pairs.arnoldi_discs import (
+    RADIUS_PER_HEIGHT,
+    SAME_EIGENVALUE,
+    Disc,
+    DiscSolver,
+)
 from grainmodes.complex_pairs.definition import ComplexPairs, select_pairs, with_rayleigh_quotients
-from grainmodes.response.stability import REAL
+from grainmodes.response.stability import REAL_TOLERANCE
 
-STEP = 0.8
-"""Where the next disc stands, in radii above this one."""
+SHIFT_SPACING = 0.8
+"""Distance of the next shift from the upper end of a disc, in radii."""
 
-TALL = 0.83
-"""Height of a disc above the axis in distances between two: with it and 0.8 of it as radius a row
-reaches at the axis' discs from 0.4 to 1.3 of these distances, and the next row from 1.2 on."""
+HEIGHT_PER_SPACING = 0.83
+"""Height of a disc above the axis, in distances between two discs of its row.
 
-THRICE = 3
-"""By how much each row is higher and wider than the one before."""
+With a radius of 0.8 heights a row covers 0.4 to 1.3 of these distances, and the next row begins at
+1.2."""
 
-RIGHT = 1e-9
-"""What Σλ and Σλ² may be off by, in units of M max|K| and M max|K|²."""
+ROW_RATIO = 3
+"""Height and spacing of a row, in those of the row below."""
+
+SUM_TOLERANCE = 1e-9
+"""Error of Σλ and Σλ², in units of M max|K| and M max|K|²."""
 
 
-def pairs_by_windows(matrix: sparse.csr_array, null: np.ndarray) -> ComplexPairs:
-    """Every complex pair of K (M, M).
+def pairs_by_disc_sweep(matrix: sparse.csr_array, null: np.ndarray) -> ComplexPairs:
+    """All complex pairs of K (M, M).
 
     Args:
-        null: its zero modes on both sides (M, Z), orthonormal.
+        null: its zero modes on both sides, (M, Z), orthonormal.
 
     Raises:
         ArithmeticError: an iteration did not converge, or the eigenvalues do not add up.
     """
-    discs = Discs(matrix, null)
-    covering = _covering(discs.on_axis, discs.scale, _top(matrix))
+    solver = DiscSolver(matrix, null)
+    covering = _covering(solver.on_axis, solver.scale, _largest_real_part(matrix))
     cuts = [_cut(one, two) for one, two in pairwise(covering)]
     parts = [
-        disc.among((disc.value.real >= low) & (disc.value.real < high))
+        disc.subset((disc.value.real >= low) & (disc.value.real < high))
         for disc, (low, high) in zip(covering, pairwise([-np.inf, *cuts, np.inf]), strict=True)
     ]
-    missing = matrix.shape[0] - null.shape[1] - sum(part.number for part in parts)
-    shifts = _shifts_above([covering[0].low, *cuts, covering[-1].high], _tallest(matrix))
-    del covering  # with the vectors of discs that overlap
-    parts += _above(discs, shifts, np.concatenate([part.value for part in parts]), missing)
-    _add_up(matrix, null, parts)
-    return _merged([_pairs(matrix, discs, part) for part in parts])
+    missing = matrix.shape[0] - null.shape[1] - sum(part.n_eigenvalues for part in parts)
+    places = [covering[0].low, *cuts, covering[-1].high]
+    shifts = _shifts_above(places, _largest_imaginary_part(matrix))
+    del covering  # frees the vectors of overlapping discs
+    parts += _discs_above(solver, shifts, np.concatenate([part.value for part in parts]), missing)
+    _check_sums(matrix, null, parts)
+    return _merge([_pairs_of_disc(matrix, solver, part) for part in parts])
 
 
-def _pairs(matrix: sparse.csr_array, discs: Discs, part: Disc) -> ComplexPairs:
-    """The pairs of a disc."""
-    pairs = part.value[part.value.imag > REAL]
-    return with_rayleigh_quotients(matrix, select_pairs(pairs, part.right, discs.left(part)))
+def _pairs_of_disc(matrix: sparse.csr_array, solver: DiscSolver, part: Disc) -> ComplexPairs:
+    """The pairs of a disc with both vectors and two-sided Rayleigh quotients."""
+    pairs = part.value[part.value.imag > REAL_TOLERANCE]
+    return with_rayleigh_quotients(
+        matrix, select_pairs(pairs, part.right, solver.left_vectors(part))
+    )
 
 
-def _merged(parts: list[ComplexPairs]) -> ComplexPairs:
-    """The pairs of all parts, λ_r ascending; they are taken out of the list, one by one."""
+def _merge(parts: list[ComplexPairs]) -> ComplexPairs:
+    """The pairs of all parts, λ_r ascending; the list is emptied to save memory."""
     value = np.concatenate([part.value for part in parts])
     place = np.argsort(np.argsort(value.real, kind="stable"), kind="stable")
     merged = ComplexPairs(
@@ -90,8 +100,8 @@ def _merged(parts: list[ComplexPairs]) -> ComplexPairs:
     while parts:
         part = parts.pop()
         place, at = np.split(place, [len(place) - len(part.value)])
-        for of, whole in zip(part, merged, strict=True):
-            whole[..., at] = of
+        for column, whole in zip(part, merged, strict=True):
+            whole[..., at] = column
     return merged
 
 
@@ -105,7 +115,7 @@ def _covering(disc_at: Callable[[float], Disc], scale: float, top: float) -> lis
         elif ahead:
             ahead.append(disc_at(0.5 * (last.high + ahead[-1].low)))
         else:
-            ahead.append(disc_at(last.high + STEP * last.radius))
+            ahead.append(disc_at(last.high + SHIFT_SPACING * last.radius))
     return discs
 
 
@@ -118,50 +128,54 @@ def _cut(lower: Disc, upper: Disc) -> float:
     return float(places[widest] + places[widest + 1]) / 2.0
 
 
-def _above(discs: Discs, shifts: Iterator[complex], known: np.ndarray, missing: int) -> list[Disc]:
-    """Discs of pairs that are not known, until their number is right."""
+def _discs_above(
+    solver: DiscSolver, shifts: Iterator[complex], known: np.ndarray, missing: int
+) -> list[Disc]:
+    """Discs with the pairs that are not `known` yet, until none is `missing`."""
     found = []
     while missing > 0 and (shift := next(shifts, None)) is not None:
-        disc = discs.above_axis(shift)
-        apart = np.abs(disc.value[:, None] - known).min(axis=1) > SAME * discs.scale
-        found.append(disc.among(apart))
+        disc = solver.above_axis(shift)
+        apart = np.abs(disc.value[:, None] - known).min(axis=1) > SAME_EIGENVALUE * solver.scale
+        found.append(disc.subset(apart))
         known = np.concatenate([known, found[-1].value])
-        missing -= found[-1].number
+        missing -= found[-1].n_eigenvalues
     return found
 
 
-def _shifts_above(places: list[float], most: float) -> Iterator[complex]:
-    """Rows of shifts above the inner ones of ascending places, as far as λ_i = `most`."""
+def _shifts_above(places: list[float], highest: float) -> Iterator[complex]:
+    """Rows of shifts above the inner ones of ascending places, up to λ_i = `highest`."""
     (low, *inner, high), stride = places, 1
     while stride <= len(inner):
         row = inner[stride // 2 :: stride]
         for before, place, after in zip([low, *row], row, [*row[1:], high], strict=False):
-            height = TALL * max(place - before, after - place)
-            if (1.0 - REACH) * height < most:
+            height = HEIGHT_PER_SPACING * max(place - before, after - place)
+            if (1.0 - RADIUS_PER_HEIGHT) * height < highest:
                 yield complex(place, height)
-        stride *= THRICE
+        stride *= ROW_RATIO
 
 
-def _add_up(matrix: sparse.csr_array, null: np.ndarray, parts: list[Disc]) -> None:
-    """Refuse eigenvalues that are not all those of K."""
-    size, number = matrix.shape[0], null.shape[1] + sum(part.number for part in parts)
+def _check_sums(matrix: sparse.csr_array, null: np.ndarray, parts: list[Disc]) -> None:
+    """Raise ArithmeticError unless number, Σλ and Σλ² are those of K."""
+    size, number = matrix.shape[0], null.shape[1] + sum(part.n_eigenvalues for part in parts)
     if number != size:
-        raise ArithmeticError(f"{number} of {size} eigenvalues were found")
+        raise ArithmeticError(f"disc sweep: expected {size} eigenvalues, got {number}")
     value = np.concatenate([part.value for part in parts])
     scale, times = np.abs(matrix.data).max(), 1 + (value.imag > 0.0)
     first, second = matrix.trace(), float((matrix * matrix.T).sum())
     off = max(
         abs(times @ value.real - first) / scale, abs(times @ (value**2).real - second) / scale**2
     )
-    if off > RIGHT * size:
-        raise ArithmeticError(f"the eigenvalues do not add up to the trace: off by {off:.1e}")
+    if off > SUM_TOLERANCE * size:
+        raise ArithmeticError(
+            f"disc sweep: expected the eigenvalues to add up to the trace, got {off:.1e}"
+        )
 
 
-def _top(matrix: sparse.csr_array) -> float:
-    """Above every λ_r: the largest row sum of |K|."""
+def _largest_real_part(matrix: sparse.csr_array) -> float:
+    """A bound of λ_r: the largest row sum of |K|."""
     return float(np.abs(matrix).sum(axis=1).max())
 
 
-def _tallest(matrix: sparse.csr_array) -> float:
-    """Above every λ_i: the largest row sum of |K − Kᵀ|/2, a bound of its norm."""
-    return 0.5 * _top(matrix - matrix.T)
+def _largest_imaginary_part(matrix: sparse.csr_array) -> float:
+    """A bound of λ_i: the largest row sum of |K − Kᵀ|/2."""
+    return 0.5 * _largest_real_part(matrix - matrix.T)

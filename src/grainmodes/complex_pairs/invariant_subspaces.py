@@ -26,7 +26,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from grainmodes.complex_pairs.definition import ComplexPairs
-from grainmodes.response.stability import REAL
+from grainmodes.response.stability import REAL_TOLERANCE
 
 
 class Subspaces(NamedTuple):
@@ -59,7 +59,7 @@ class Subspaces(NamedTuple):
         """The complex pairs among the eigenvalues, λ_r ascending, |u| = 1 and vᴴu = 1."""
         (a, b), (c, d) = np.moveaxis(self.block, 0, -1)
         values = 0.5 * (a + d) + 0.5j * np.sqrt(np.maximum(-((a - d) ** 2) - 4.0 * b * c, 0.0))
-        (pairs,) = np.nonzero(values.imag > REAL)
+        (pairs,) = np.nonzero(values.imag > REAL_TOLERANCE)
         pairs = pairs[np.argsort(values.real[pairs], kind="stable")]
         values, block = values[pairs], self.block[pairs]
         right = block_eigenvectors(block, values)
@@ -78,8 +78,7 @@ def block_eigenvectors(block: np.ndarray, values: np.ndarray) -> np.ndarray:
     Where B = λ both columns are zero and the first unit vector is taken.
     """
     (a, b), (c, d) = np.moveaxis(block, 0, -1)
-    zero = np.zeros_like(values)  # real vectors of real values
-    columns = np.array([[values - d, c + zero], [b + zero, values - a]])
+    columns = np.array([[values - d, c], [b, values - a]])
     lengths = np.linalg.norm(columns, axis=1)
     longest, each = lengths.argmax(axis=0), np.arange(len(values))
     vectors, length = columns[longest, :, each], lengths[longest, each][:, None]

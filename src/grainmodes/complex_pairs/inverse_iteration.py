@@ -1,19 +1,18 @@
-"""The plane of two eigenvectors, by inverse iteration from both sides.
+"""The invariant subspace of two modes by inverse iteration: C, Sec. III C.
 
-Two eigenvalues that meet, λ1 = λ2, leave K one eigenvector instead of two: each of them alone has
-an infinite condition. Their plane, and the 2 × 2 block B that K is on it, stay smooth, and so are
+Where two eigenvalues meet, λ1 = λ2, K has one eigenvector instead of two, and the condition of each
+eigenvalue by itself is infinite. The invariant subspace of both and its block B, the 2 × 2 matrix
+of K on it, stay smooth, and so do
 
     λ1 + λ2 = tr B,   D = (λ1 − λ2)² = (tr B)² − 4 det B                                    C (19)
 
-D changes sign where the two meet; |λ1 − λ2| = |D|^(1/2). Everything near an exceptional point is
-therefore computed from the plane. It is improved until it stands still,
+D changes sign where the two meet, and |λ1 − λ2| = |D|^(1/2). Everything near an exceptional point
+is therefore computed from the subspace. It is improved from both sides until its residual is small,
 
     R ← (K − σ)⁻¹ R,   L ← (K − σ)⁻ᵀ L,   B = Lᵀ K R with Lᵀ R = 1
 
-with σ = tr B / 2 for the whole plane where the two are `CLOSE`, and with σ = λ1, λ2 for each
-eigenvector elsewhere, where another mode may lie between them. The scalar product of the two
-eigenvectors is C's, |Σ u¹_j u²_j| with norms 1 and no conjugation: 1 for a complex pair, 0 where K
-is symmetric.
+with one shift σ = tr B / 2 for the whole subspace where the two eigenvalues are close, and with
+σ = λ1, λ2 for each eigenvector elsewhere, where another mode may lie between them.
 """
 
 from __future__ import annotations
@@ -24,22 +23,26 @@ import numpy as np
 import scipy.sparse as sparse
 
 from grainmodes.complex_pairs.invariant_subspaces import Subspaces, block_eigenvectors
-from grainmodes.linalg.general_shift import Shifted
+from grainmodes.linalg.general_shift import GeneralShift
 
-MOST = 12
-"""Iterations: four times what a plane needs that has turned by a tenth."""
+MAX_ITERATIONS = 12
+"""Four times what a subspace needs that has turned by a tenth."""
 
-SETTLED = 1e-12
-"""Residual, in units of max|K|, at which a plane stands still."""
+INVARIANCE_TOLERANCE = 1e-12
+"""Residual of an invariant subspace, in units of max|K|."""
 
-CLOSE = 1e-5
-"""|λ1 − λ2|, in units of max|K|, up to which the two eigenvectors are not told apart."""
+COMMON_SHIFT_GAP = 1e-5
+"""|λ1 − λ2|, in units of max|K|, up to which both eigenvectors are iterated with one shift."""
 
 
-class Plane(NamedTuple):
-    """An invariant plane: R (M, 2) orthonormal, L (M, 2) with Lᵀ R = 1, B (2, 2).
+class InvariantSubspace(NamedTuple):
+    """The subspace of two modes.
 
-    `residual` is the larger of |K R − R B| and |Kᵀ L − L Bᵀ| / |L|, in units of max|K|.
+    Attributes:
+        right: R, (M, 2), orthonormal.
+        left: L, (M, 2), Lᵀ R = 1.
+        block: B, (2, 2).
+        residual: the larger of |K R − R B| and |Kᵀ L − L Bᵀ| / |L|, in units of max|K|.
     """
 
     right: np.ndarray
@@ -65,83 +68,92 @@ class Plane(NamedTuple):
 
     @property
     def values(self) -> np.ndarray:
-        """λ1 and λ2, (2,) complex; the first one is the larger, or has λ_i > 0."""
+        """λ1 and λ2, (2,) complex128; the first one is the larger, or has λ_i > 0."""
         root = np.sqrt(complex(self.discriminant))
         return 0.5 * (self.sum + np.array([root, -root]))
 
     @property
     def vectors(self) -> np.ndarray:
-        """u1 and u2, (M, 2) complex, of norm 1; the same one twice where λ1 = λ2."""
-        return self.right @ _kernels(self.block, self.values)
+        """u1 and u2, (M, 2) complex128, of norm 1; the same one twice where λ1 = λ2."""
+        return self.right @ _eigenvectors(self.block, self.values)
 
     @property
     def left_vectors(self) -> np.ndarray:
-        """v1 and v2, (M, 2) complex: vᴴ K = λ vᴴ."""
-        return self.left @ _kernels(self.block.T, self.values.conj())
+        """v1 and v2, (M, 2) complex128: vᴴ K = λ vᴴ."""
+        return self.left @ _eigenvectors(self.block.T, self.values.conj())
 
     @property
     def product(self) -> float:
-        """C's scalar product |Σ u1_j u2_j| of the two eigenvectors."""
-        one, two = _kernels(self.block, self.values).T
+        """C's scalar product |Σ u1_j u2_j| of the two eigenvectors of norm 1, not conjugated.
+
+        It is 1 for a complex pair and 0 where K is symmetric.
+        """
+        one, two = _eigenvectors(self.block, self.values).T
         return float(abs(one @ two))
 
     @property
     def condition(self) -> float:
         """Condition 1/|vᴴu| of λ1, which is that of λ2; infinite where the two meet."""
         value = self.values[:1]
-        right = _kernels(self.block, value)[:, 0]
-        left = _kernels(self.block.T, value.conj())[:, 0]
+        right = _eigenvectors(self.block, value)[:, 0]
+        left = _eigenvectors(self.block.T, value.conj())[:, 0]
         overlap = abs(left.conj() @ right)
         return float(np.linalg.norm(self.left @ left) / overlap) if overlap else np.inf
 
-    def part_of(self, other: Plane) -> float:
-        """How much of this plane lies in another one, 0 to 1: the rest lies in other modes."""
+    def overlap_with(self, other: InvariantSubspace) -> float:
+        """Projector overlap with another subspace, 0 to 1: how much of this one lies in it."""
         return float(np.linalg.norm(other.left.T @ self.right) / np.sqrt(2.0))
 
 
-def plane_of(matrix: sparse.csr_array, right: np.ndarray, left: np.ndarray) -> Plane:
-    """The plane of real vectors (M, 2) as it is, with its residual; they need no scale."""
+def subspace_spanned_by(
+    matrix: sparse.csr_array, right: np.ndarray, left: np.ndarray
+) -> InvariantSubspace:
+    """The subspace of real vectors (M, 2) of any norm as it is, with its residual for K (M, M)."""
     found = Subspaces.spanned_by(matrix, right.T[None], left.T[None])
-    return Plane(found.right[0].T, found.left[0].T, found.block[0], float(found.residual[0]))
+    residual = float(found.residual[0])
+    return InvariantSubspace(found.right[0].T, found.left[0].T, found.block[0], residual)
 
 
-def plane_near(matrix: sparse.csr_array, start: Plane) -> Plane:
-    """The invariant plane of K that a plane of a similar matrix leads to.
+def nearest_subspace(matrix: sparse.csr_array, start: InvariantSubspace) -> InvariantSubspace:
+    """The invariant subspace of K (M, M) to which inverse iteration leads from `start`.
 
-    Its residual tells whether it is one: `SETTLED` at most.
+    It is invariant if its residual is `INVARIANCE_TOLERANCE` at most; the caller checks this.
 
     Raises:
         ArithmeticError: the iteration broke down.
     """
-    now, factors = plane_of(matrix, start.right, start.left), Shifted(matrix)
-    for _ in range(MOST):
-        if now.residual <= SETTLED:
+    now, factors = subspace_spanned_by(matrix, start.right, start.left), GeneralShift(matrix)
+    common_shift_gap = COMMON_SHIFT_GAP * np.abs(matrix.data).max()
+    for _ in range(MAX_ITERATIONS):
+        if now.residual <= INVARIANCE_TOLERANCE:
             break
-        now = plane_of(matrix, *_improved(factors, now, CLOSE * np.abs(matrix.data).max()))
+        now = subspace_spanned_by(matrix, *_iterate(factors, now, common_shift_gap))
         if not np.isfinite(now.residual):
-            raise ArithmeticError("the plane of two eigenvectors was lost")
+            raise ArithmeticError("inverse iteration: expected a finite residual, got NaN")
     return now
 
 
-def _improved(factors: Shifted, now: Plane, close: float) -> tuple[np.ndarray, np.ndarray]:
-    """Vectors (M, 2) on both sides after one step of inverse iteration."""
-    if np.sqrt(abs(now.discriminant)) <= close:
-        factors.to(0.5 * now.sum)
+def _iterate(
+    factors: GeneralShift, now: InvariantSubspace, common_shift_gap: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Right and left vectors (M, 2) after one step of inverse iteration."""
+    if np.sqrt(abs(now.discriminant)) <= common_shift_gap:
+        factors.factor_at(0.5 * now.sum)
         return factors.solve(now.right), factors.solve_transposed(now.left)
     pair = now.is_pair
     values = now.values[:1] if pair else now.values.real
-    rights = now.right @ _kernels(now.block, values)
-    lefts = now.left @ _kernels(now.block.T, values)
+    rights = now.right @ _eigenvectors(now.block, values)
+    lefts = now.left @ _eigenvectors(now.block.T, values)
     right, left = [], []
     for place, value in enumerate(values):
-        factors.to(value)
+        factors.factor_at(value)
         right.append(factors.solve(rights[:, place]))
         left.append(factors.solve_transposed(lefts[:, place]))
     if pair:
-        right, left = ([of[0].real, of[0].imag] for of in (right, left))
+        right, left = ([vectors[0].real, vectors[0].imag] for vectors in (right, left))
     return np.stack(right, axis=1), np.stack(left, axis=1)
 
 
-def _kernels(block: np.ndarray, values: np.ndarray) -> np.ndarray:
+def _eigenvectors(block: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Eigenvectors of norm 1 of one block (2, 2), one column for each of its `values` (K,)."""
     return block_eigenvectors(np.broadcast_to(block, (len(values), 2, 2)), values).T

@@ -1,9 +1,10 @@
-"""Which complex pair of one state is which of the next.
+"""Which complex pair of one state is which of the next, by the overlap of their subspaces.
 
-A pair spans a real plane, Re u and Im u. With the left plane L of the old pair, Lᵀ R = 1, the part
-of the new plane R' that lies in the old one is |Lᵀ R'|/√2. It is 1 for the same plane and, unlike
-the product of right eigenvectors, 0 for every other plane of the same matrix. Two pairs are the
-same one if each has its largest part in the other and both parts are above `SAME`.
+A pair spans a real plane, Re u and Im u, with a right basis R and a left basis L, Lᵀ R = 1. The
+projector R Lᵀ of the old pair takes the part |Lᵀ R'|/√2 out of the plane R' of a new one. This
+overlap is 1 for the same plane and, unlike the product of right eigenvectors, 0 for every other
+plane of the same matrix. Two pairs are the same one if each has its largest overlap with the other
+and both overlaps are above `MIN_OVERLAP`.
 """
 
 from __future__ import annotations
@@ -15,42 +16,41 @@ import numpy as np
 from grainmodes.complex_pairs.definition import ComplexPairs
 from grainmodes.complex_pairs.invariant_subspaces import orthonormal
 
-SAME = 0.5
-"""Part of the new plane in the old one from which two pairs are the same."""
+MIN_OVERLAP = 0.5
+"""Projector overlap above which two pairs are the same."""
 
 
-class Planes(NamedTuple):
-    """R and Lᵀ with Lᵀ R = 1, (P, 2, n) in single precision: they are only compared."""
+class PairProjectors(NamedTuple):
+    """R, orthonormal, and Lᵀ of every pair, (P, 2, n) float32: they are only compared."""
 
     right: np.ndarray
     left: np.ndarray
 
     @classmethod
-    def of(cls, pairs: ComplexPairs) -> Planes:
-        """The planes of pairs, R orthonormal."""
+    def from_pairs(cls, pairs: ComplexPairs) -> PairProjectors:
+        """The projectors on the planes of complex pairs."""
         right, left = (
-            orthonormal(np.stack([of.real.T, of.imag.T], axis=1))
-            for of in (pairs.right, pairs.left)
+            orthonormal(np.stack([vectors.real.T, vectors.imag.T], axis=1))
+            for vectors in (pairs.right, pairs.left)
         )
         left = np.linalg.inv(left @ right.swapaxes(1, 2)) @ left
         return cls(right.astype(np.float32), left.astype(np.float32))
 
 
-def matched(old: Planes, new: Planes) -> list[tuple[int, int]]:
+def match_pairs(old: PairProjectors, new: PairProjectors) -> list[tuple[int, int]]:
     """Places (old, new) of the pairs that two states have in common."""
     if not len(old.right) or not len(new.right):
         return []
-    part = np.minimum(parts(old, new), parts(new, old).T)
-    forth, back = part.argmax(axis=1), part.argmax(axis=0)
-    return [(i, j) for i, j in enumerate(forth.tolist()) if back[j] == i and part[i, j] > SAME]
+    overlap = np.minimum(projector_overlap(old, new), projector_overlap(new, old).T)
+    forth, back = overlap.argmax(axis=1), overlap.argmax(axis=0)
+    return [
+        (i, j) for i, j in enumerate(forth.tolist()) if back[j] == i and overlap[i, j] > MIN_OVERLAP
+    ]
 
 
-def parts(of: Planes, other: Planes) -> np.ndarray:
-    """Part of the planes of `other` in those `of`, (P, P')."""
-    within = _rows(of.left) @ _rows(other.right).T
-    squares = (within**2).reshape(len(of.left), 2, -1, 2)
+def projector_overlap(projectors: PairProjectors, others: PairProjectors) -> np.ndarray:
+    """Part of every plane of `others` that the projectors keep, (P, P'), 0 to 1."""
+    size = projectors.left.shape[2]
+    within = projectors.left.reshape(-1, size) @ others.right.reshape(-1, size).T
+    squares = (within**2).reshape(len(projectors.left), 2, -1, 2)
     return np.sqrt(0.5 * squares.sum(axis=(1, 3)))
-
-
-def _rows(planes: np.ndarray) -> np.ndarray:
-    return planes.reshape(-1, planes.shape[2])

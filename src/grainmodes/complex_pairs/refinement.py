@@ -23,7 +23,7 @@ from scipy.linalg import lapack
 
 from grainmodes.complex_pairs.invariant_subspaces import Subspaces
 from grainmodes.complex_pairs.partitioning import Eigensystem
-from grainmodes.response.stability import REAL
+from grainmodes.response.stability import REAL_TOLERANCE
 
 BLOCK_SIZE = 256
 """Columns that LAPACK inverts at once. `scipy.linalg.inv` takes a fifth longer."""
@@ -95,7 +95,7 @@ def refined_subspaces(
     unsure = near_degenerate(found.values, found.coupling)
     if len(unsure) > MAX_NEAR_DEGENERATE * len(found.values):
         return None
-    isolated = found.values.imag > REAL
+    isolated = found.values.imag > REAL_TOLERANCE
     isolated[unsure] = False
     (isolated,) = np.nonzero(isolated)
     modes = np.vstack([unsure, np.stack([isolated, isolated + 1], axis=1)])

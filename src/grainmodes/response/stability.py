@@ -23,7 +23,7 @@ from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.packing.state import Packing
 
-REAL = 1e-9
+REAL_TOLERANCE = 1e-9
 """|Im λ'| up to which an eigenvalue counts as real, k_N d^(1/2)/m."""
 
 
@@ -33,7 +33,7 @@ def complex_pairs(packing: Packing, interaction: Interaction) -> int:
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
-    return int(np.count_nonzero(eigenvalues(packing, interaction).imag > REAL))
+    return int(np.count_nonzero(eigenvalues(packing, interaction).imag > REAL_TOLERANCE))
 
 
 def eigenvalues(packing: Packing, interaction: Interaction) -> np.ndarray:

@@ -7,37 +7,37 @@ from collections.abc import Sequence
 import numpy as np
 
 from grainmodes.complex_pairs.definition import on_all_grains
-from grainmodes.complex_pairs.inverse_iteration import plane_near
+from grainmodes.complex_pairs.inverse_iteration import nearest_subspace
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
-from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, Side
-from grainmodes.protocols.pair_tracking.linear_range import Chosen
-from grainmodes.protocols.pair_tracking.paths import path_of, products_along
-from grainmodes.protocols.pair_tracking.tracking import Life, Located, PairWalk
+from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, TwoModeState
+from grainmodes.protocols.pair_tracking.linear_range import ReleaseCandidate
+from grainmodes.protocols.pair_tracking.paths import follow_along, scalar_products_along
+from grainmodes.protocols.pair_tracking.tracking import LocatedPoint, PairTrack, PairTracking
 
 
-def tracking_row(tracking: PairWalk) -> dict[str, object]:
+def tracking_row(tracking: PairTracking) -> dict[str, object]:
     """Everything recorded along a shear; not converged where it ended before the last strain."""
     packing = tracking.now.equilibrium.packing
     return {
         **{name: getattr(packing, name) for name in ("diameter", "mass", "box_length")},
         **_states(tracking),
-        **_tracks(tracking.lives),
+        **_tracks(tracking.tracks),
         **_exceptional_points(tracking),
-        **_unstable_state(tracking.unstable),
+        **_unstable_state(tracking.candidate),
         "jammed": True,
         "converged": tracking.done,
     }
 
 
-def _states(tracking: PairWalk) -> dict[str, object]:
+def _states(tracking: PairTracking) -> dict[str, object]:
     """Every state of the shear in numbers, with ω_r + iω_i of its fastest pair."""
-    states = tracking.counts
+    states = tracking.records
     root = np.sqrt(np.array([state.fastest for state in states]))
     return {
         "pair_state_count": len(states),
         "pair_strain": [state.strain for state in states],
         "pair_count": [state.pairs for state in states],
-        "pair_count_jacobian": [state.of_jacobian for state in states],
+        "pair_count_jacobian": [state.jacobian_pairs for state in states],
         "pair_growth": root.imag,
         "pair_frequency": root.real,
         "pair_condition": [state.condition for state in states],
@@ -45,7 +45,7 @@ def _states(tracking: PairWalk) -> dict[str, object]:
     }
 
 
-def _tracks(tracks: Sequence[Life]) -> dict[str, object]:
+def _tracks(tracks: Sequence[PairTrack]) -> dict[str, object]:
     """Every pair with the strains between which it was born and died."""
     row: dict[str, object] = {"track_count": len(tracks)}
     if not tracks:
@@ -55,10 +55,10 @@ def _tracks(tracks: Sequence[Life]) -> dict[str, object]:
         row[f"track_{event}_before"] = strains[:, 0]
         row[f"track_{event}_after"] = strains[:, 1]
         row[f"track_{event}_kind"] = [getattr(track, f"{event}_kind") for track in tracks]
-    return row | {"track_growth": [track.largest for track in tracks]}
+    return row | {"track_growth": [track.max_growth for track in tracks]}
 
 
-def _exceptional_points(tracking: PairWalk) -> dict[str, object]:
+def _exceptional_points(tracking: PairTracking) -> dict[str, object]:
     """The exceptional points, and the two modes near them and along the shear."""
     located = tracking.located
     row: dict[str, object] = {"exceptional_point_count": len(located)}
@@ -66,7 +66,7 @@ def _exceptional_points(tracking: PairWalk) -> dict[str, object]:
         return row
     points = [one.point for one in located]
     row |= {
-        "exceptional_point_track": [one.life for one in located],
+        "exceptional_point_track": [one.track for one in located],
         "exceptional_point_birth": [one.born for one in located],
         "exceptional_point_kind": [point.kind for point in points],
         "exceptional_point_before": [point.below for point in points],
@@ -80,36 +80,36 @@ def _exceptional_points(tracking: PairWalk) -> dict[str, object]:
     return row | _neighbours(located) | _two_modes(tracking) | _products(tracking)
 
 
-def _neighbours(located: Sequence[Located]) -> dict[str, object]:
-    """The states near every exceptional point, with the numbers of the plane of its two modes."""
+def _neighbours(located: Sequence[LocatedPoint]) -> dict[str, object]:
+    """The states near every exceptional point, with numbers of the subspace of its two modes."""
     names = ("sum", "discriminant", "product", "condition", "residual")
     rows = [
-        (place, near.distance, *(getattr(near.plane, name) for name in names))
+        (place, near.distance, *(getattr(near.subspace, name) for name in names))
         for place, one in enumerate(located)
-        for near in one.point.near
+        for near in one.point.neighbours
     ]
     return _columns("neighbour", ("point", "distance", *names), rows)
 
 
-def _two_modes(tracking: PairWalk) -> dict[str, object]:
+def _two_modes(tracking: PairTracking) -> dict[str, object]:
     """The two modes of every coalescence along the shear."""
-    beyond = tracking.asked.track_beyond
+    beyond = tracking.choices.track_beyond
     rows = []
     for place, one in enumerate(tracking.located):
         if one.point.kind != COALESCENCE:
             continue
-        for side in path_of(one.pair, tracking.states, beyond):
-            first, second = side.plane.values
-            product = side.plane.product
+        for side in follow_along(one.pair, tracking.states, beyond):
+            first, second = side.subspace.values
+            product = side.subspace.product
             rows.append((place, side.strain, first.real, second.real, first.imag, product))
     names = ("point", "strain", "real_1", "real_2", "imaginary", "product")
     return _columns("followed", names, rows)
 
 
-def _products(tracking: PairWalk) -> dict[str, object]:
+def _products(tracking: PairTracking) -> dict[str, object]:
     """Scalar products of a mode of the first coalescence with all others, among few grains."""
     pairs = [one.pair for one in tracking.located if one.point.kind == COALESCENCE]
-    states = products_along(pairs[0], tracking.states) if pairs else []
+    states = scalar_products_along(pairs[0], tracking.states) if pairs else []
     rows = [
         (state.strain, state.mode, other, product)
         for state in states
@@ -127,18 +127,18 @@ def _columns(prefix: str, names: Sequence[str], rows: Sequence[tuple]) -> dict[s
     return {f"{prefix}_{name}": values for name, values in columns}
 
 
-def _unstable_state(chosen: Chosen | None) -> dict[str, object]:
+def _unstable_state(chosen: ReleaseCandidate | None) -> dict[str, object]:
     """The state to release, its pair refined to the last digits."""
     if chosen is None:
         return {"unstable_found": False}
     equilibrium = chosen.state.equilibrium
-    packing, side = equilibrium.packing, chosen.state.side(chosen.place)
+    packing, side = equilibrium.packing, chosen.state.two_modes(chosen.place)
     springs = packing.history
     assert springs is not None  # without them J is symmetric and has no complex pair
-    plane = plane_near(
-        mass_weighted_jacobian(equilibrium.matrix, equilibrium.backbone.mass), side.plane
+    subspace = nearest_subspace(
+        mass_weighted_jacobian(equilibrium.matrix, equilibrium.backbone.mass), side.subspace
     )
-    mode = motion_of(Side(equilibrium, plane))
+    mode = motion_of(TwoModeState(equilibrium, subspace))
     return {
         "unstable_found": True,
         "unstable_strain": packing.strain,
@@ -147,17 +147,17 @@ def _unstable_state(chosen: Chosen | None) -> dict[str, object]:
         "unstable_contact_i": springs.i,
         "unstable_contact_j": springs.j,
         "unstable_spring_state": springs.spring_state,
-        "unstable_eigenvalue_real": plane.values[0].real,
-        "unstable_eigenvalue_imag": plane.values[0].imag,
-        "unstable_condition": plane.condition,
-        "unstable_residual": plane.residual,
-        "unstable_linear_range": chosen.room,
+        "unstable_eigenvalue_real": subspace.values[0].real,
+        "unstable_eigenvalue_imag": subspace.values[0].imag,
+        "unstable_condition": subspace.condition,
+        "unstable_residual": subspace.residual,
+        "unstable_linear_range": chosen.linear_range,
         "unstable_mode_real": mode.real,
         "unstable_mode_imag": mode.imag,
     }
 
 
-def motion_of(side: Side) -> np.ndarray:
+def motion_of(side: TwoModeState) -> np.ndarray:
     """q = M^(−1/2) u of the first mode of a pair on all grains, (N, 3) complex.
 
     Its norm is 1 and its largest component real.
@@ -165,7 +165,7 @@ def motion_of(side: Side) -> np.ndarray:
     equilibrium = side.equilibrium
     scale = 1.0 / root_mass(equilibrium.backbone.mass).ravel()
     q = on_all_grains(
-        scale[:, None] * side.plane.vectors[:, :1], equilibrium.backbone_mask
+        scale[:, None] * side.subspace.vectors[:, :1], equilibrium.backbone_mask
     ).reshape(-1, 3)
     largest = q.ravel()[np.argmax(np.abs(q))]
     return q * (abs(largest) / largest / np.linalg.norm(q))

@@ -15,7 +15,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.pair_tracking.tracking import PairWalk
+from grainmodes.protocols.pair_tracking.tracking import PairTracking
 from grainmodes.stages.complex_pair_rows import tracking_row
 from grainmodes.stages.rows import response_block
 from grainmodes.stages.samples import jammed_packing
@@ -37,7 +37,7 @@ def complex_pairs_block(
         packing, jammed = jammed_packing(packings, number, interaction)
         if not jammed:
             return {"pair_state_count": 0, "jammed": False, "converged": True}
-        tracking = PairWalk.start(packing, interaction, shear, choices)
+        tracking = PairTracking.start(packing, interaction, shear, choices)
         try:
             while not tracking.done:
                 tracking.advance()

@@ -18,7 +18,7 @@ from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ELASTIC_LAWS, TANGENTIAL_LAWS, ContactLaw
 from grainmodes.parameters.law_comparison import MAX_GRAINS
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.law_comparison.comparison import Seen, Variant, variant
+from grainmodes.protocols.law_comparison.comparison import ComparedState, LawRun, shear_under_law
 from grainmodes.stages.rows import response_block
 from grainmodes.stages.samples import jammed_packing
 
@@ -38,32 +38,32 @@ def law_comparison_block(packings: Block, law: ContactLaw, choices: Shear) -> Bl
     return response_block(packings, "law_comparison", config, law, sample)
 
 
-def shear_under_all_laws(packing: Packing, law: ContactLaw, choices: Shear) -> dict[str, Variant]:
+def shear_under_all_laws(packing: Packing, law: ContactLaw, choices: Shear) -> dict[str, LawRun]:
     """Shear a packing under every tangential law; the result by the name of the law."""
     found = {}
     for name in TANGENTIAL_LAWS:
         friction = None if name in ELASTIC_LAWS else law.friction_coefficient
         other = replace(law, tangential=name, friction_coefficient=friction)
-        found[name] = variant(packing, Interaction.from_law(other), choices)
+        found[name] = shear_under_law(packing, Interaction.from_law(other), choices)
     return found
 
 
-def comparison_row(variants: Mapping[str, Variant]) -> dict[str, object]:
+def comparison_row(runs: Mapping[str, LawRun]) -> dict[str, object]:
     """Everything recorded under every law; not converged where one ended before the last strain."""
-    longest = max((one.seen for one in variants.values()), key=len)
+    longest = max((run.states for run in runs.values()), key=len)
     row: dict[str, object] = {"comparison_count": len(longest)}
     row["comparison_strain"] = [state.strain for state in longest]
     columns = {
         quantity: stack_padded(
-            [[getattr(state, quantity) for state in one.seen] for one in variants.values()],
+            [[getattr(state, quantity) for state in run.states] for run in runs.values()],
             np.nan,
             float,
         )
-        for quantity in Seen._fields[1:]
+        for quantity in ComparedState._fields[1:]
     }
-    for place, name in enumerate(variants):
+    for place, name in enumerate(runs):
         for quantity, column in columns.items():
             row[f"comparison_{quantity}_{name}"] = column[place]
-    failures = [f"{name}: {one.ending}" for name, one in variants.items() if one.ending]
+    failures = [f"{name}: {run.ending}" for name, run in runs.items() if run.ending]
     row |= {"jammed": True, "converged": not failures}
     return row | ({"failure": "; ".join(failures)} if failures else {})

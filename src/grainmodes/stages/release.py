@@ -17,7 +17,7 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.release import Release
 from grainmodes.protocols.release.release_run import ReleaseRun
 from grainmodes.protocols.release.unstable_state import UnstableState
-from grainmodes.response.stability import REAL
+from grainmodes.response.stability import REAL_TOLERANCE
 from grainmodes.stages.long_runs import CheckpointStore, run_to_end
 from grainmodes.stages.packing_rows import history_in_row
 from grainmodes.stages.release_rows import runs_row
@@ -86,9 +86,9 @@ def check_pair(start: UnstableState, interaction: Interaction) -> None:
         ArithmeticError: the imaginary part of the eigenvalue is 0 to rounding, or the mode is not
             an eigenvector of M⁻¹J.
     """
-    if start.eigenvalue.imag <= REAL:
+    if start.eigenvalue.imag <= REAL_TOLERANCE:
         raise ArithmeticError(
-            f"the pair: expected Im above {REAL:.1e}, got {start.eigenvalue.imag:.1e}"
+            f"the pair: expected Im above {REAL_TOLERANCE:.1e}, got {start.eigenvalue.imag:.1e}"
         )
     residual = start.residual(interaction)
     if not residual < MAX_RESIDUAL:

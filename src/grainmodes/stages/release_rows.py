@@ -11,7 +11,7 @@ from grainmodes.protocols.release.outcome import ReleaseOutcome, record_series, 
 from grainmodes.protocols.release.record import MotionRecord, grain_stress
 from grainmodes.protocols.release.release_run import ReleaseRun
 from grainmodes.protocols.release.spirals import fit_spirals
-from grainmodes.response.stability import REAL
+from grainmodes.response.stability import REAL_TOLERANCE
 
 COUNTS = ("sliding", "changed")
 """Quantities of a record that are whole numbers."""
@@ -91,12 +91,12 @@ def _spectra(run: ReleaseRun) -> dict[str, object]:
     if not run.spectra:
         return {}
     spectra = [values for _, values in run.spectra]
-    imaginary = [np.sort(values.imag[values.imag > REAL])[::-1] for values in spectra]
-    real = [values.real[np.abs(values.imag) <= REAL] for values in spectra]
+    imaginary = [np.sort(values.imag[values.imag > REAL_TOLERANCE])[::-1] for values in spectra]
+    real = [values.real[np.abs(values.imag) <= REAL_TOLERANCE] for values in spectra]
     return {
         "release_spectrum_time": [step * run.choices.time_step for step, _ in run.spectra],
         "release_spectrum_pairs": [len(parts) for parts in imaginary],
-        "release_spectrum_negative": [np.count_nonzero(parts < -REAL) for parts in real],
+        "release_spectrum_negative": [np.count_nonzero(parts < -REAL_TOLERANCE) for parts in real],
         "release_spectrum_imaginary": stack_padded(imaginary, np.nan),
     }
 

@@ -18,8 +18,12 @@ from grainmodes.complex_pairs.definition import (
     translations,
 )
 from grainmodes.complex_pairs.invariant_subspaces import Subspaces
-from grainmodes.complex_pairs.inverse_iteration import SETTLED, plane_near, plane_of
-from grainmodes.complex_pairs.matching import Planes, matched, parts
+from grainmodes.complex_pairs.inverse_iteration import (
+    INVARIANCE_TOLERANCE,
+    nearest_subspace,
+    subspace_spanned_by,
+)
+from grainmodes.complex_pairs.matching import PairProjectors, match_pairs, projector_overlap
 from grainmodes.complex_pairs.partitioning import (
     Eigensystem,
     NearlyDiagonal,
@@ -35,7 +39,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.pair_tracking.exceptional_points import fitted
+from grainmodes.protocols.pair_tracking.exceptional_points import fit_exponent
 from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.response.stability import complex_pairs
@@ -113,7 +117,7 @@ def test_a_symmetric_jacobian_has_no_pair():
 
 @pytest.mark.parametrize("strain", [-3.0, -1.001, -0.999, 0.0, 0.5, 0.999999, 1.000001, 2.0])
 def test_a_plane_knows_two_modes_on_both_sides_of_their_meeting(strain):
-    plane = plane_of(two(strain), np.eye(2), np.eye(2))
+    plane = subspace_spanned_by(two(strain), np.eye(2), np.eye(2))
     assert plane.sum == pytest.approx(4.0 + strain)
     assert plane.discriminant == pytest.approx(4.0 * (strain**2 - 1.0), rel=1e-9)
     expected = np.linalg.eigvals(two(strain).toarray())
@@ -127,7 +131,7 @@ def test_a_plane_knows_two_modes_on_both_sides_of_their_meeting(strain):
 
 
 def test_at_the_exceptional_point_the_condition_is_infinite():
-    plane = plane_of(two(1.0), np.eye(2), np.eye(2))
+    plane = subspace_spanned_by(two(1.0), np.eye(2), np.eye(2))
     assert plane.discriminant == pytest.approx(0.0, abs=1e-14)
     assert plane.product == pytest.approx(1.0, abs=1e-7)
     assert plane.condition > 1e6
@@ -137,22 +141,22 @@ def test_the_exponent_of_a_square_root_is_a_half():
     distance = np.logspace(-8, -5, 10)
     for sign in (1.0, -1.0):
         discriminant = np.abs([plane_at(1.0 + sign * d) for d in distance])
-        exponent = fitted(distance, discriminant)
+        exponent = fit_exponent(distance, discriminant)
         assert exponent.value == pytest.approx(0.5, abs=1e-6)
         assert exponent.error < 1e-6
-    linear = fitted(distance, distance**2)
+    linear = fit_exponent(distance, distance**2)
     assert linear.value == pytest.approx(1.0)
-    assert np.isnan(fitted(distance[:4], distance[:4]).value)
+    assert np.isnan(fit_exponent(distance[:4], distance[:4]).value)
 
 
 def plane_at(strain: float) -> float:
-    return plane_of(two(strain), np.eye(2), np.eye(2)).discriminant
+    return subspace_spanned_by(two(strain), np.eye(2), np.eye(2)).discriminant
 
 
 def test_another_singularity_nearby_is_left_out_of_a_fit():
     distance = np.logspace(-8, -5, 10)
     bent = distance * (1.0 + np.sqrt(distance / 1e-7) * (distance > 5e-7))
-    exponent = fitted(distance, bent)
+    exponent = fit_exponent(distance, bent)
     assert exponent.count < 10
     assert exponent.value == pytest.approx(0.5, abs=0.05)
 
@@ -166,8 +170,8 @@ def test_a_plane_is_found_again_from_nearby(matrix):
             for side in (found.right, found.left)
         )
         rough = [side + 1e-3 * draws.standard_normal(side.shape) for side in (right, left)]
-        plane = plane_near(matrix, plane_of(matrix, *rough))
-        assert plane.residual <= SETTLED
+        plane = nearest_subspace(matrix, subspace_spanned_by(matrix, *rough))
+        assert plane.residual <= INVARIANCE_TOLERANCE
         assert plane.values[0] == pytest.approx(found.value[place], abs=1e-12)
         assert plane.condition == pytest.approx(found.condition[place], rel=1e-6)
         assert plane.product == pytest.approx(1.0)
@@ -178,11 +182,11 @@ def test_pairs_are_the_same_ones_in_any_order(matrix):
     order = np.random.default_rng(0).permutation(len(found.value))
     turned = found.right[:, order] * np.exp(0.7j)
     other = ComplexPairs(found.value[order], turned, found.left[:, order] * np.exp(0.7j))
-    found, other = Planes.of(found), Planes.of(other)
-    assert sorted(matched(found, other)) == [(order[k], k) for k in np.argsort(order)]
-    assert_allclose(parts(found, found), np.eye(len(order)), atol=1e-5)
-    nothing = Planes(found.right[:0], found.left[:0])
-    assert matched(found, nothing) == matched(nothing, found) == []
+    found, other = PairProjectors.from_pairs(found), PairProjectors.from_pairs(other)
+    assert sorted(match_pairs(found, other)) == [(order[k], k) for k in np.argsort(order)]
+    assert_allclose(projector_overlap(found, found), np.eye(len(order)), atol=1e-5)
+    nothing = PairProjectors(found.right[:0], found.left[:0])
+    assert match_pairs(found, nothing) == match_pairs(nothing, found) == []
 
 
 def test_a_nearly_diagonal_matrix_is_solved_window_by_window():

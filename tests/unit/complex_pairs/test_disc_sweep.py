@@ -1,4 +1,4 @@
-"""Complex pairs by windows of Arnoldi's method: those of LAPACK."""
+"""Complex pairs by a disc sweep: those of LAPACK."""
 
 from dataclasses import replace
 
@@ -9,14 +9,14 @@ import scipy.sparse as sparse
 
 from example_packings import reference
 from grainmodes.complex_pairs import disc_sweep
-from grainmodes.complex_pairs.arnoldi_discs import REACH, Disc, Discs
+from grainmodes.complex_pairs.arnoldi_discs import RADIUS_PER_HEIGHT, Disc, DiscSolver
 from grainmodes.complex_pairs.definition import (
     dense_pairs,
     select_pairs,
     translations,
     with_rayleigh_quotients,
 )
-from grainmodes.complex_pairs.disc_sweep import _shifts_above, pairs_by_windows
+from grainmodes.complex_pairs.disc_sweep import _shifts_above, pairs_by_disc_sweep
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.parameters.law import ContactLaw
@@ -41,7 +41,7 @@ def sheared(coefficient: float) -> sparse.csr_array:
 @pytest.mark.parametrize("coefficient", [0.5, 10.0])
 def test_the_pairs_are_those_of_lapack(coefficient):
     matrix = sheared(coefficient)
-    found = pairs_by_windows(matrix, translations(np.ones(matrix.shape[0] // 3)))
+    found = pairs_by_disc_sweep(matrix, translations(np.ones(matrix.shape[0] // 3)))
     expected = dense_pairs(matrix)
     assert len(expected.value) > 0
     np.testing.assert_allclose(found.value, expected.value, atol=1e-13)
@@ -54,10 +54,10 @@ def test_the_pairs_are_those_of_lapack(coefficient):
 
 def test_what_is_missing_is_seen(monkeypatch):
     matrix = sheared(10.0)
-    monkeypatch.setattr(disc_sweep, "STEP", 5.0)
+    monkeypatch.setattr(disc_sweep, "SHIFT_SPACING", 5.0)
     monkeypatch.setattr(disc_sweep.Disc, "low", property(lambda self: -np.inf))
-    with pytest.raises(ArithmeticError, match="eigenvalues were found"):
-        pairs_by_windows(matrix, translations(np.ones(matrix.shape[0] // 3)))
+    with pytest.raises(ArithmeticError, match="eigenvalues, got"):
+        pairs_by_disc_sweep(matrix, translations(np.ones(matrix.shape[0] // 3)))
 
 
 def with_tall_pairs(*pairs: complex) -> sparse.csr_array:
@@ -71,7 +71,7 @@ def with_tall_pairs(*pairs: complex) -> sparse.csr_array:
 
 def test_pairs_far_above_the_real_axis_are_found():
     matrix = with_tall_pairs(0.5 + 0.4j, 0.9 + 0.1j)
-    found, expected = pairs_by_windows(matrix, np.zeros((404, 0))), dense_pairs(matrix)
+    found, expected = pairs_by_disc_sweep(matrix, np.zeros((404, 0))), dense_pairs(matrix)
     assert len(expected.value) == 2 and expected.value.imag.max() > 0.3
     np.testing.assert_allclose(found.value, expected.value, atol=1e-12)
     np.testing.assert_allclose(found.condition, expected.condition, rtol=1e-6)
@@ -83,16 +83,16 @@ def test_a_disc_above_the_axis_reaches_far(place, angle):
     """All within 0.8 of its height in one sweep, at a height of a hundred gaps on the axis."""
     shift = 0.8 + 0.3j
     pair = shift + 0.3 * place * np.exp(1j * angle)
-    disc = Discs(with_tall_pairs(pair), np.zeros((402, 0))).above_axis(shift)
+    disc = DiscSolver(with_tall_pairs(pair), np.zeros((402, 0))).above_axis(shift)
     assert np.abs(disc.value - pair).min() < 0.01
     assert disc.radius == pytest.approx(0.24)
 
 
 def test_a_left_vector_that_arnoldi_does_not_find_comes_from_inverse_iteration():
     matrix = with_tall_pairs(0.5 + 0.4j)
-    discs, expected = Discs(matrix, np.zeros((402, 0))), dense_pairs(matrix)
+    solver, expected = DiscSolver(matrix, np.zeros((402, 0))), dense_pairs(matrix)
     far = Disc(0.9 + 0.01j, 1.0, expected.value, expected.right)
-    left = discs.left(far)
+    left = solver.left_vectors(far)
     overlap = np.abs(left.conj().T @ expected.left) / np.linalg.norm(expected.left)
     assert overlap == pytest.approx(np.linalg.norm(left))
 
@@ -106,14 +106,14 @@ def test_rows_of_discs_leave_no_gap_above_those_on_the_axis():
     points = (across + 1j * up).ravel()[:, None]
     seen = np.abs(points - shifts).min(axis=1) < 1.0
     for part in np.array_split(above, 10):
-        seen |= (np.abs(points - part) < REACH * part.imag).any(axis=1)
+        seen |= (np.abs(points - part) < RADIUS_PER_HEIGHT * part.imag).any(axis=1)
     assert seen.all()
     assert len(above) < 1.6 * len(shifts)
 
 
 def test_a_symmetric_matrix_has_no_pairs():
     matrix = sheared(10.0)
-    found = pairs_by_windows(
+    found = pairs_by_disc_sweep(
         0.5 * (matrix + matrix.T).tocsr(), translations(np.ones(matrix.shape[0] // 3))
     )
     assert len(found.value) == 0 and found.right.shape == (matrix.shape[0], 0)

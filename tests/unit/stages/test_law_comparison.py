@@ -8,7 +8,7 @@ from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Interaction
 from grainmodes.parameters.law import TANGENTIAL_LAWS, ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.law_comparison.comparison import Seen, Variant
+from grainmodes.protocols.law_comparison.comparison import ComparedState, LawRun
 from grainmodes.stages import law_comparison
 from grainmodes.stages.packing_rows import packing_row
 
@@ -48,9 +48,9 @@ def test_harmonic_springs_cannot_tell_what_they_remember():
 
 
 def test_a_law_that_ended_early_is_told():
-    seen = [Seen(strain, 1, 0, 2, 0.1, 0.0) for strain in (1e-3, 2e-3)]
-    found = dict.fromkeys(TANGENTIAL_LAWS, Variant(seen))
-    found["sharp_coulomb"] = Variant(seen[:1], "lost")
+    seen = [ComparedState(strain, 1, 0, 2, 0.1, 0.0) for strain in (1e-3, 2e-3)]
+    found = dict.fromkeys(TANGENTIAL_LAWS, LawRun(seen))
+    found["sharp_coulomb"] = LawRun(seen[:1], "lost")
     row = law_comparison.comparison_row(found)
     assert row["failure"] == "sharp_coulomb: lost" and not row["converged"]
     np.testing.assert_array_equal(row["comparison_strain"], [1e-3, 2e-3])

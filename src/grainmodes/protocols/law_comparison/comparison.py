@@ -1,10 +1,10 @@
 """One packing sheared under several tangential laws: C, Sec. VIII, "How generic …".
 
-Every law starts from the same frictionless balance, s = 0, and goes its own way of quasistatic
-steps Δγ (`strain_step`). On the way complex pairs of M⁻¹J are counted, on both sides of Coulomb's
-threshold (`coulomb_threshold`), and every state with a pair is released (`simulated_growth`).
+Under every law the shear starts from the same frictionless equilibrium, s = 0, in quasistatic steps
+Δγ (`strain_step`). Along it complex pairs of M⁻¹J are counted on both sides of Coulomb's threshold
+(`coulomb_threshold`), and every state with a pair is released (`simulated_growth`).
 
-What may make J asymmetric, and so pairs possible:
+These terms make J asymmetric, and so pairs possible:
 
 | term                               | elastic | elastic force | smoothed | sharp    | sharp force |
 | ---------------------------------- | ------- | ------------- | -------- | -------- | ----------- |
@@ -33,16 +33,20 @@ from grainmodes.protocols.shear.coulomb_threshold import (
 from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
-STATES = 20
-"""States along the way at which pairs are counted."""
+N_STATES = 20
+"""States of a shear in which pairs are counted."""
 
 
-class Seen(NamedTuple):
-    """A state on the way.
+class ComparedState(NamedTuple):
+    """One state of a shear under one law.
 
-    `rate` is the largest ω_i where springs at their threshold slip, 0 without pairs; `growth` the
-    rate at which the released state leaves, NaN without pairs; `slipping` the number of contacts at
-    their threshold.
+    Attributes:
+        strain: γ.
+        pairs_slipping: complex pairs of M⁻¹J where springs at their threshold slip.
+        pairs_sticking: complex pairs where they stick.
+        slipping: number of contacts at their threshold.
+        rate: largest ω_i where they slip, in 1/t_0; 0 without pairs.
+        growth: rate at which the released state is left, in 1/t_0; NaN without pairs.
     """
 
     strain: float
@@ -52,34 +56,40 @@ class Seen(NamedTuple):
     rate: float
     growth: float
 
-    @classmethod
-    def of(cls, equilibrium: EquilibriumState) -> Seen:
-        """Count the pairs of a state, and release it where there is one."""
-        packing, interaction = equilibrium.backbone, equilibrium.interaction
-        slips, sticks = (fastest_pair(packing, interaction, s) for s in (SLIPPING, STICKING))
-        slipping = int(slipping_contacts(packing.contacts, interaction).sum())
-        growth = simulated_growth_rate(packing, interaction, slips) if slips.pairs else np.nan
-        return cls(packing.strain, slips.pairs, sticks.pairs, slipping, slips.growth_rate, growth)
-
 
 @dataclass
-class Variant:
-    """What was seen under one law; `ending` says why it ended before the last strain, if it did."""
+class LawRun:
+    """The states of a shear under one law; `ending` says why it ended early, if it did."""
 
-    seen: list[Seen] = field(default_factory=list)
+    states: list[ComparedState] = field(default_factory=list)
     ending: str = ""
 
 
-def variant(packing: Packing, interaction: Interaction, choices: Shear) -> Variant:
-    """A packing sheared to `choices.strain` under one law, as far as balances are found."""
-    found, steps = Variant(), round(choices.strain / choices.step)
-    every = max(1, steps // STATES)
+def shear_under_law(packing: Packing, interaction: Interaction, choices: Shear) -> LawRun:
+    """Shear a packing to `choices.strain` under one law, as far as equilibria are found."""
+    run, steps = LawRun(), round(choices.strain / choices.step)
+    interval = max(1, steps // N_STATES)
     try:
         equilibrium = first_equilibrium(packing, interaction, choices)
         for step in range(1, steps + 1):
             equilibrium, _ = step_to(step * choices.step, equilibrium, choices)
-            if step % every == 0:
-                found.seen.append(Seen.of(equilibrium))
+            if step % interval == 0:
+                run.states.append(compare_state(equilibrium))
     except ArithmeticError as error:
-        found.ending = str(error)
-    return found
+        run.ending = str(error)
+    return run
+
+
+def compare_state(equilibrium: EquilibriumState) -> ComparedState:
+    """Count the pairs of a state on both sides of the threshold, and release it if there is one.
+
+    Raises:
+        numpy.linalg.LinAlgError: the eigensolver did not converge.
+    """
+    packing, interaction = equilibrium.backbone, equilibrium.interaction
+    slips, sticks = (fastest_pair(packing, interaction, side) for side in (SLIPPING, STICKING))
+    slipping = int(slipping_contacts(packing.contacts, interaction).sum())
+    growth = simulated_growth_rate(packing, interaction, slips) if slips.pairs else np.nan
+    return ComparedState(
+        packing.strain, slips.pairs, sticks.pairs, slipping, slips.growth_rate, growth
+    )

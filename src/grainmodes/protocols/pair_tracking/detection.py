@@ -1,4 +1,4 @@
-"""The complex pairs of one state of a walk, by a detector that may remember the state before."""
+"""The complex pairs of one state, by a detector that may remember the state before."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from grainmodes.complex_pairs.definition import (
     on_all_grains,
     translations,
 )
-from grainmodes.complex_pairs.disc_sweep import pairs_by_windows
-from grainmodes.complex_pairs.inverse_iteration import plane_of
-from grainmodes.complex_pairs.matching import Planes
+from grainmodes.complex_pairs.disc_sweep import pairs_by_disc_sweep
+from grainmodes.complex_pairs.inverse_iteration import subspace_spanned_by
+from grainmodes.complex_pairs.matching import PairProjectors
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
-from grainmodes.protocols.pair_tracking.exceptional_points import Side
+from grainmodes.protocols.pair_tracking.exceptional_points import TwoModeState
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 
@@ -30,53 +30,57 @@ class Detector(Protocol):
     dense: bool
     """Whether LAPACK solved the last one."""
 
-    def find(self, loaded: DynamicalMatrix) -> ComplexPairs:
-        """Every complex pair of K on the grains that carry load."""
+    def find(self, problem: DynamicalMatrix) -> ComplexPairs:
+        """All complex pairs of K on the backbone."""
 
 
-class ByLapack:
-    """The definition: every matrix solved anew."""
+class DenseDetector:
+    """The definition: LAPACK solves every matrix anew."""
 
     dense = True
 
-    def find(self, loaded: DynamicalMatrix) -> ComplexPairs:
-        """Every complex pair of K."""
-        return dense_pairs(loaded.matrix)
+    def find(self, problem: DynamicalMatrix) -> ComplexPairs:
+        """All complex pairs of K.
+
+        Raises:
+            numpy.linalg.LinAlgError: the eigensolver did not converge.
+        """
+        return dense_pairs(problem.matrix)
 
 
-class ByWindows:
-    """Every matrix solved anew, in windows: for states too large for LAPACK."""
+class DiscDetector:
+    """A disc sweep solves every matrix anew: for states too large for LAPACK."""
 
     dense = False
 
-    def find(self, loaded: DynamicalMatrix) -> ComplexPairs:
-        """Every complex pair of K.
+    def find(self, problem: DynamicalMatrix) -> ComplexPairs:
+        """All complex pairs of K.
 
         Raises:
             ArithmeticError: an iteration did not converge, or the eigenvalues do not add up.
         """
-        return pairs_by_windows(loaded.matrix, loaded.null)
+        return pairs_by_disc_sweep(problem.matrix, problem.null)
 
 
 DETECTORS: dict[str, type[Detector]] = {
     "continuation": EigenbasisContinuation,
-    "dense": ByLapack,
-    "discs": ByWindows,
+    "dense": DenseDetector,
+    "discs": DiscDetector,
 }
 """How pairs are found, by the name of the choice."""
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
-    """A state with its pairs, their vectors on all grains."""
+class PairState:
+    """A state in equilibrium with its complex pairs, their vectors (3N, P) on all grains."""
 
     equilibrium: EquilibriumState
     pairs: ComplexPairs
 
     @cached_property
-    def planes(self) -> Planes:
-        """The planes of the pairs."""
-        return Planes.of(self.pairs)
+    def projectors(self) -> PairProjectors:
+        """The projectors on the planes of the pairs."""
+        return PairProjectors.from_pairs(self.pairs)
 
     @property
     def strain(self) -> float:
@@ -84,25 +88,31 @@ class Seen:
         return self.equilibrium.packing.strain
 
     def motions(self, places: np.ndarray) -> np.ndarray:
-        """q = M^(−1/2) u of some of the pairs, (N, 3, P) complex."""
+        """q = M^(−1/2) u of the pairs at some places (P,), (N, 3, P) complex128."""
         scale = 1.0 / root_mass(self.equilibrium.packing.mass)
         return self.pairs.right[:, places].reshape(*scale.shape, -1) * scale[:, :, None]
 
-    def side(self, place: int) -> Side:
-        """The state with the plane of one of its pairs."""
-        held = np.repeat(self.equilibrium.backbone_mask, 3)
+    def two_modes(self, place: int) -> TwoModeState:
+        """The state with the subspace of one of its pairs."""
+        equilibrium = self.equilibrium
+        backbone = np.repeat(equilibrium.backbone_mask, 3)
         right, left = (
-            np.stack([of[held, place].real, of[held, place].imag], axis=1)
-            for of in (self.pairs.right, self.pairs.left)
+            np.stack([vectors[backbone, place].real, vectors[backbone, place].imag], axis=1)
+            for vectors in (self.pairs.right, self.pairs.left)
         )
-        matrix = mass_weighted_jacobian(self.equilibrium.matrix, self.equilibrium.backbone.mass)
-        return Side(self.equilibrium, plane_of(matrix, right, left))
+        matrix = mass_weighted_jacobian(equilibrium.matrix, equilibrium.backbone.mass)
+        return TwoModeState(equilibrium, subspace_spanned_by(matrix, right, left))
 
 
-def seen_by(detector: Detector, equilibrium: EquilibriumState) -> Seen:
-    """A state with the pairs that a detector finds in it."""
-    mass = equilibrium.backbone.mass
+def detect_pairs(detector: Detector, equilibrium: EquilibriumState) -> PairState:
+    """A state with the pairs that a detector finds in it.
+
+    Raises:
+        ArithmeticError: an iteration did not converge.
+        numpy.linalg.LinAlgError: the dense eigensolver did not converge.
+    """
+    mass, backbone = equilibrium.backbone.mass, equilibrium.backbone_mask
     matrix = mass_weighted_jacobian(equilibrium.matrix, mass)
-    found = detector.find(DynamicalMatrix(matrix, translations(mass), equilibrium.backbone_mask))
-    right, left = (on_all_grains(of, equilibrium.backbone_mask) for of in (found.right, found.left))
-    return Seen(equilibrium, ComplexPairs(found.value, right, left))
+    found = detector.find(DynamicalMatrix(matrix, translations(mass), backbone))
+    right, left = (on_all_grains(vectors, backbone) for vectors in (found.right, found.left))
+    return PairState(equilibrium, ComplexPairs(found.value, right, left))

@@ -1,23 +1,24 @@
-"""How far a growing pair carries a state before contacts change, and which state to release: C, VI.
+"""The linear range of a growing pair, and which state to release: C, Sec. VI.
 
-    Δq(t) = Re(a u e^(−iω_r t)),   |n·(Δr_i − Δr_j)| ≤ |a| |n·(u_i − u_j)|, reached once a turn
-    M = |a|² ⟨|u_i|²⟩ / 2,   of (x, y) alone, mean over all grains and over a turn          C (30)
+    Δq(t) = Re(a u e^(−iω_r t)),   |n·(Δr_i − Δr_j)| ≤ |a| |n·(u_i − u_j)|, once in a period
+    M = |a|² ⟨|u_i|²⟩ / 2,   of (x, y) alone, mean over all grains and over a period          C (30)
 
-To first order a contact opens where its largest excursion is its overlap, and a near miss closes
-where it is its gap. M at the first of all these is the room of the pair of modes. Counted are, as
-along the shear, contacts between grains that carry load: a loose grain is put down a hair's breadth
-from its neighbours, takes next to no force from them and gives none.
+To first order a contact opens where its largest excursion equals its overlap, and two grains that
+nearly touch meet where it equals their gap. M at the first of these events is the linear range of
+the pair of modes. As along the shear, only contacts between grains that carry load are counted: a
+loose grain is placed with next to no gap to its neighbours, bears next to no force from them and
+exerts none.
 
-Released is the fastest pair whose linear growth changes no contact in the range of M in which the
+We release the fastest pair whose linear growth changes no contact in the range of M in which the
 growth is fitted.
 
-| symbol         | name      | shape                               |
-| -------------- | --------- | ----------------------------------- |
-| u              | motions   | (N, 3, P) complex, of q, any norm   |
-| n_ij           | normal    | (C, 2), contacts and near misses    |
-| overlap or gap | margin    | (C,), d                             |
-| |n·(u_i − u_j)| | excursion | (C, P)                              |
-| M then         | rooms     | (P,), d²                            |
+| symbol          | name          | shape, unit                            |
+| --------------- | ------------- | -------------------------------------- |
+| u               | motions       | (N, 3, P) complex128, of q, any norm   |
+| n_ij            | normal        | (C, 2), contacts and near contacts     |
+| overlap or gap  | margin        | (C,), d                                |
+| |n·(u_i − u_j)| | excursion     | (C, P)                                 |
+| M at the first  | linear range  | (P,), d²                               |
 """
 
 from __future__ import annotations
@@ -28,47 +29,51 @@ from typing import NamedTuple
 import numpy as np
 
 from grainmodes.parameters.release import GROWTH_RANGE
-from grainmodes.protocols.pair_tracking.detection import Seen
+from grainmodes.protocols.pair_tracking.detection import PairState
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
-FARTHEST = 0.1
-"""Largest gap of a near miss, in d. The two at a wider one never meet below M = 1e-11 d² in less
-than 1e8 grains, were they all that moves; and contacts overlap by less."""
+MAX_GAP = 0.1
+"""Largest gap of a near contact, in d. Two grains further apart do not meet below M = 1e-11 d² in
+a packing of less than 1e8 grains, even if they alone move; and contacts overlap by less."""
 
 
-class Chosen(NamedTuple):
-    """A state to release: ω_i of its pair, where that stands among the others, and its room."""
+class ReleaseCandidate(NamedTuple):
+    """A state to release, with ω_i of its pair, the place of this pair, and its linear range."""
 
     growth: float
-    state: Seen
+    state: PairState
     place: int
-    room: float
+    linear_range: float
 
 
-def fastest_with_room(state: Seen, slower: float) -> Chosen | None:
-    """The fastest pair of a state that grows faster than `slower` and has room; None without."""
+def fastest_candidate(state: PairState, min_growth: float) -> ReleaseCandidate | None:
+    """The fastest pair of a state with a sufficient linear range; None without one.
+
+    Args:
+        min_growth: ω_i in 1/t_0 that the pair must exceed.
+    """
     growth = state.pairs.growth
-    faster = np.flatnonzero(growth > slower)
+    faster = np.flatnonzero(growth > min_growth)
     if not len(faster):
         return None
-    room = rooms(state.equilibrium, state.motions(faster))
-    roomy = room > GROWTH_RANGE[1]
-    if not roomy.any():
+    ranges = linear_ranges(state.equilibrium, state.motions(faster))
+    sufficient = ranges > GROWTH_RANGE[1]
+    if not sufficient.any():
         return None
-    best = int(np.argmax(np.where(roomy, growth[faster], 0.0)))
+    best = int(np.argmax(np.where(sufficient, growth[faster], 0.0)))
     place = int(faster[best])
-    return Chosen(float(growth[place]), state, place, float(room[best]))
+    return ReleaseCandidate(float(growth[place]), state, place, float(ranges[best]))
 
 
-def rooms(equilibrium: EquilibriumState, motions: np.ndarray) -> np.ndarray:
-    """M of the first change of contacts along every mode, (P,)."""
-    packing, held = equilibrium.packing, equilibrium.backbone_mask
-    larger = replace(packing, diameter=packing.diameter + FARTHEST, history=None)
+def linear_ranges(equilibrium: EquilibriumState, motions: np.ndarray) -> np.ndarray:
+    """M of the first change of contacts along motions (N, 3, P), (P,) in d²."""
+    packing, backbone = equilibrium.packing, equilibrium.backbone_mask
+    larger = replace(packing, diameter=packing.diameter + MAX_GAP, history=None)
     near = larger.contacts
-    loaded = held[near.i] & held[near.j]
-    margin = np.abs(near.overlap - FARTHEST)[loaded]
-    plane = motions[:, :2]
-    apart = plane[near.i[loaded]] - plane[near.j[loaded]]
-    excursion = np.abs(np.einsum("ca,cap->cp", near.normal[loaded], apart))
-    size = 1.0 / (excursion / margin[:, None]).max(axis=0)
-    return size**2 * (np.abs(plane) ** 2).sum(axis=1).mean(axis=0) / 2.0
+    loaded = backbone[near.i] & backbone[near.j]
+    margin = np.abs(near.overlap - MAX_GAP)[loaded]
+    translation = motions[:, :2]
+    relative = translation[near.i[loaded]] - translation[near.j[loaded]]
+    excursion = np.abs(np.einsum("ca,cap->cp", near.normal[loaded], relative))
+    amplitude = 1.0 / (excursion / margin[:, None]).max(axis=0)
+    return amplitude**2 * (np.abs(translation) ** 2).sum(axis=1).mean(axis=0) / 2.0

@@ -1,17 +1,19 @@
-"""Complex pairs along a quasistatic shear: born, followed, dead. C, Sec. V A.
+"""Complex pairs along a quasistatic shear: their births, tracks and deaths. C, Sec. V A.
 
-From a frictionless balance, whose J is symmetric, the strain grows in steps Δγ. In every balance
-the pairs are found and each is looked for among those of the step before (`pairs.following`). One
-that was not there is born in this step; one that is no longer there has died in it.
+The shear begins in a frictionless equilibrium, whose J is symmetric, and the strain grows in steps
+Δγ. In every state all pairs are found and matched with those of the step before
+(`complex_pairs.matching`). A pair without a partner in the step before was born in this step; a
+pair of the step before without a partner in this one has died.
 
 | a birth or death is | where                                                                  |
 | ------------------- | ---------------------------------------------------------------------- |
-| a coalescence       | the contacts stayed what they were: J is analytic in γ, and two real    |
+| a coalescence       | the contacts stayed the same: J is analytic in γ, and two real          |
 |                     | eigenvalues became a pair, or a pair two real ones                     |
-| a jump              | the balance did not move on continuously                               |
+| a jump              | the equilibrium did not move on continuously                           |
 | undecided           | contacts changed in the step, and it was not located                   |
 
-The first ones are located (`exceptional_points`), which replaces this word by a measured one.
+The first births and deaths are located as exceptional points (`exceptional_points`), which replaces
+this kind by a measured one.
 """
 
 from __future__ import annotations
@@ -22,11 +24,17 @@ from typing import NamedTuple
 import numpy as np
 
 from grainmodes.complex_pairs.definition import DynamicalMatrix, translations
-from grainmodes.complex_pairs.matching import matched
+from grainmodes.complex_pairs.matching import match_pairs
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.pair_tracking.detection import DETECTORS, Detector, Seen, seen_by
+from grainmodes.protocols.pair_tracking.detection import (
+    DETECTORS,
+    Detector,
+    PairState,
+    detect_pairs,
+)
 from grainmodes.protocols.pair_tracking.exceptional_points import (
     COALESCENCE,
     JUMP,
@@ -34,163 +42,170 @@ from grainmodes.protocols.pair_tracking.exceptional_points import (
     NEVER,
     UNDECIDED,
     ExceptionalPoint,
-    Side,
-    located,
+    TwoModeState,
+    locate_exceptional_point,
 )
-from grainmodes.protocols.pair_tracking.linear_range import Chosen, fastest_with_room
+from grainmodes.protocols.pair_tracking.linear_range import ReleaseCandidate, fastest_candidate
 from grainmodes.protocols.shear.events import count_network_changes
 from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 
 @dataclass
-class Life:
-    """A pair from its birth to its death; `largest` is the largest ω_i of all its states."""
+class PairTrack:
+    """A pair from its birth to its death, each between two strains.
+
+    `max_growth` is the largest ω_i of all its states, in 1/t_0.
+    """
 
     birth: tuple[float, float]
     birth_kind: int
-    largest: float = 0.0
+    max_growth: float = 0.0
     death: tuple[float, float] = (np.nan, np.nan)
     death_kind: int = NEVER
 
 
-class Located(NamedTuple):
-    """A birth or death looked at closely: whose it is, and a state in which the pair is there."""
+class LocatedPoint(NamedTuple):
+    """The exceptional point of a birth (`born`) or death of a track, and a state with the pair."""
 
-    life: int
+    track: int
     born: bool
     point: ExceptionalPoint
-    pair: Side
+    pair: TwoModeState
 
 
-class Count(NamedTuple):
-    """One state of the walk in numbers: pairs of M⁻¹J and of J, the one of the largest ω_i.
+class PairRecord(NamedTuple):
+    """One state of the shear in numbers: pairs of M⁻¹J and of J, and the pair of the largest ω_i.
 
-    `of_jacobian` is NaN where it is not asked for; without a pair `fastest` is.
+    `jacobian_pairs` is NaN unless requested; `fastest` and `condition` are NaN without a pair.
     """
 
     strain: float
     pairs: int
-    of_jacobian: float
+    jacobian_pairs: float
     fastest: complex
     condition: float
     dense: bool
 
 
 @dataclass
-class PairWalk:
-    """How far a shear has come, and every pair on the way.
+class PairTracking:
+    """The state that a shear has reached, and every pair on the way.
 
-    `detector` looks for the pairs of K, `of_jacobian`, if there is one, for those of J.
+    `detector` finds the pairs of K, `jacobian_detector`, where there is one, those of J.
     """
 
-    now: Seen
-    choices: Shear
-    asked: PairChoices
+    now: PairState
+    shear: Shear
+    choices: PairChoices
     detector: Detector
-    of_jacobian: Detector | None
-    counts: list[Count] = field(default_factory=list)
-    lives: list[Life] = field(default_factory=list)
+    jacobian_detector: Detector | None
+    records: list[PairRecord] = field(default_factory=list)
+    tracks: list[PairTrack] = field(default_factory=list)
     alive: list[int] = field(default_factory=list)
-    located: list[Located] = field(default_factory=list)
+    located: list[LocatedPoint] = field(default_factory=list)
     states: list[EquilibriumState] = field(default_factory=list)
-    unstable: Chosen | None = None
+    candidate: ReleaseCandidate | None = None
 
     @classmethod
-    def start(cls, packing: Packing, interaction, choices: Shear, asked: PairChoices) -> PairWalk:
-        """A walk from a packing in balance.
+    def start(
+        cls, packing: Packing, interaction: Interaction, shear: Shear, choices: PairChoices
+    ) -> PairTracking:
+        """The tracking in the first state of a shear, a packing in equilibrium.
 
         Raises:
-            ArithmeticError: the packing has no stable balance.
+            ArithmeticError: the packing has no stable equilibrium.
         """
-        equilibrium = first_equilibrium(packing, interaction, choices)
-        detector, other = (DETECTORS[asked.detection]() for _ in range(2))
-        of_jacobian = other if asked.jacobian else None
-        walk = cls(seen_by(detector, equilibrium), choices, asked, detector, of_jacobian)
-        walk.lives = [
-            Life((np.nan, equilibrium.packing.strain), NEVER) for _ in walk.now.pairs.value
-        ]
-        walk.alive = list(range(len(walk.lives)))
-        walk._count()
-        return walk
+        equilibrium = first_equilibrium(packing, interaction, shear)
+        detector, other = (DETECTORS[choices.detection]() for _ in range(2))
+        jacobian_detector = other if choices.jacobian else None
+        now = detect_pairs(detector, equilibrium)
+        tracking = cls(now, shear, choices, detector, jacobian_detector)
+        tracking.tracks = [PairTrack((np.nan, now.strain), NEVER) for _ in now.pairs.value]
+        tracking.alive = list(range(len(tracking.tracks)))
+        tracking._record()
+        return tracking
 
     @property
     def done(self) -> bool:
         """Whether the last strain is reached."""
-        return len(self.counts) > round(self.choices.strain / self.choices.step)
+        return len(self.records) > round(self.shear.strain / self.shear.step)
 
     def advance(self) -> None:
-        """One step of the strain.
+        """Take one step of the strain and record it.
 
         Raises:
-            ArithmeticError: no balance was found, or the eigensolver failed.
+            ArithmeticError: no equilibrium was found, or an iteration did not converge.
+            numpy.linalg.LinAlgError: the dense eigensolver did not converge.
         """
-        strain = len(self.counts) * self.choices.step
-        equilibrium, jumped = step_to(strain, self.now.equilibrium, self.choices)
-        before, self.now = self.now, seen_by(self.detector, equilibrium)
-        self._follow(before, jumped)
-        self._count()
+        strain = len(self.records) * self.shear.step
+        equilibrium, jumped = step_to(strain, self.now.equilibrium, self.shear)
+        before, self.now = self.now, detect_pairs(self.detector, equilibrium)
+        self._continue_tracks(before, jumped)
+        self._record()
 
-    def _follow(self, before: Seen, jumped: bool) -> None:
-        """Hand every life on to its pair in the new state; end some and begin some."""
-        common = dict(matched(before.planes, self.now.planes))
+    def _continue_tracks(self, before: PairState, jumped: bool) -> None:
+        """Continue every track with its pair in the new state; end some and begin some."""
+        common = dict(match_pairs(before.projectors, self.now.projectors))
         changed = any(count_network_changes(before.equilibrium, self.now.equilibrium))
         kind = JUMP if jumped else UNDECIDED if changed else COALESCENCE
         step = before.strain, self.now.strain
-        heirs = {common[old]: life for old, life in enumerate(self.alive) if old in common}
-        for old, life in enumerate(self.alive):
+        continued = {common[old]: track for old, track in enumerate(self.alive) if old in common}
+        for old, track in enumerate(self.alive):
             if old not in common:
-                self.lives[life].death, self.lives[life].death_kind = step, kind
-                self._locate(life, before, old, self.now.equilibrium, jumped)
+                self.tracks[track].death, self.tracks[track].death_kind = step, kind
+                self._locate(track, before, old, self.now.equilibrium, jumped)
         for new in range(len(self.now.pairs.value)):
-            if new not in heirs:
-                heirs[new] = len(self.lives)
-                self.lives.append(Life(step, kind))
-                self._locate(heirs[new], self.now, new, before.equilibrium, jumped)
-        self.alive = [heirs[new] for new in range(len(self.now.pairs.value))]
+            if new not in continued:
+                continued[new] = len(self.tracks)
+                self.tracks.append(PairTrack(step, kind))
+                self._locate(continued[new], self.now, new, before.equilibrium, jumped)
+        self.alive = [continued[new] for new in range(len(self.now.pairs.value))]
 
     def _locate(
-        self, life: int, seen: Seen, place: int, other: EquilibriumState, jumped: bool
+        self, track: int, state: PairState, place: int, other: EquilibriumState, jumped: bool
     ) -> None:
-        """Look at a birth or death closely, if it is one of the first."""
-        born = other.packing.strain < seen.strain
+        """Locate a birth or death between a state with the pair and another, if it is among the
+        first ones."""
+        born = other.packing.strain < state.strain
         known = sum(one.born == born for one in self.located)
-        if jumped or known >= self.asked.max_located:
+        if jumped or known >= self.choices.max_located:
             return
-        pair = seen.side(place)
+        pair = state.two_modes(place)
         try:
-            point = located(pair, other, self.choices, self.asked.bracket)
+            point = locate_exceptional_point(pair, other, self.shear, self.choices.bracket)
         except ArithmeticError:
             ends = sorted((pair.strain, other.packing.strain))
             point = ExceptionalPoint(LOST, *ends, float(np.mean(ends)))
-        self.located.append(Located(life, born, point, pair))
-        record, ends = self.lives[life], (point.below, point.above)
+        self.located.append(LocatedPoint(track, born, point, pair))
+        record, ends = self.tracks[track], (point.below, point.above)
         if born:
             record.birth, record.birth_kind = ends, point.kind
         else:
             record.death, record.death_kind = ends, point.kind
 
-    def _count(self) -> None:
-        """Record the state."""
+    def _record(self) -> None:
+        """Record the state, the growth of its tracks, and a better candidate for release."""
         self.states.append(self.now.equilibrium.without_factors())
         pairs = self.now.pairs
         growth = pairs.growth
-        for life, rate in zip(self.alive, growth.tolist(), strict=True):
-            self.lives[life].largest = max(self.lives[life].largest, rate)
-        if not len(growth):
-            self.counts.append(self._in_numbers(complex(np.nan, np.nan), np.nan))
-            return
-        place = int(np.argmax(growth))
-        value, condition = complex(pairs.value[place]), float(pairs.condition[place])
-        self.counts.append(self._in_numbers(value, condition))
-        slower = self.unstable.growth if self.unstable else 0.0
-        self.unstable = fastest_with_room(self.now, slower) or self.unstable
+        for track, rate in zip(self.alive, growth.tolist(), strict=True):
+            self.tracks[track].max_growth = max(self.tracks[track].max_growth, rate)
+        fastest, condition = complex(np.nan, np.nan), np.nan
+        if len(growth):
+            place = int(np.argmax(growth))
+            fastest, condition = complex(pairs.value[place]), float(pairs.condition[place])
+            min_growth = self.candidate.growth if self.candidate else 0.0
+            self.candidate = fastest_candidate(self.now, min_growth) or self.candidate
+        numbers = len(growth), self._count_jacobian_pairs(), fastest, condition
+        self.records.append(PairRecord(self.now.strain, *numbers, self.detector.dense))
 
-    def _in_numbers(self, fastest: complex, condition: float) -> Count:
-        of_jacobian, equilibrium = np.nan, self.now.equilibrium
-        if self.of_jacobian:
-            null = translations(np.ones(equilibrium.backbone.n))
-            loaded = DynamicalMatrix(equilibrium.matrix.tocsr(), null, equilibrium.backbone_mask)
-            of_jacobian = len(self.of_jacobian.find(loaded).value)
-        pairs, dense = len(self.now.pairs.value), self.detector.dense
-        return Count(self.now.strain, pairs, of_jacobian, fastest, condition, dense)
+    def _count_jacobian_pairs(self) -> float:
+        """Number of complex pairs of J; NaN unless requested."""
+        if self.jacobian_detector is None:
+            return np.nan
+        equilibrium = self.now.equilibrium
+        null = translations(np.ones(equilibrium.backbone.n))
+        matrix = equilibrium.matrix.tocsr()
+        problem = DynamicalMatrix(matrix, null, equilibrium.backbone_mask)
+        return len(self.jacobian_detector.find(problem).value)

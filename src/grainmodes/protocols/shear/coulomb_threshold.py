@@ -29,7 +29,7 @@ from grainmodes.packing.contacts import Contacts
 from grainmodes.packing.jacobian import assemble, stiffness_of
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
 from grainmodes.packing.state import Packing
-from grainmodes.response.stability import REAL
+from grainmodes.response.stability import REAL_TOLERANCE
 
 SLIPPING, STICKING = 1.0, -1.0
 """The side of the threshold, as the sign of the change of |s|."""
@@ -80,7 +80,7 @@ def fastest_pair(packing: Packing, interaction: Interaction, side: float) -> Fas
     values = scipy.linalg.eigvals(matrix, overwrite_a=True)
     fastest = _place_of_fastest(values)
     highest_frequency = float(np.sqrt(np.abs(values).max()))
-    pairs = int(np.count_nonzero(values.imag > REAL))
+    pairs = int(np.count_nonzero(values.imag > REAL_TOLERANCE))
     return FastestPair(pairs, complex(values[fastest]) if pairs else 0.0, highest_frequency)
 
 
@@ -97,7 +97,8 @@ def fastest_mode(packing: Packing, interaction: Interaction, side: float) -> np.
 
 def _place_of_fastest(values: np.ndarray) -> int:
     """Place of the eigenvalue of a pair with the largest ω_i."""
-    return int(np.argmax(np.where(values.imag > REAL, np.sqrt(values.astype(complex)).imag, -1.0)))
+    growth = np.sqrt(values.astype(complex)).imag
+    return int(np.argmax(np.where(values.imag > REAL_TOLERANCE, growth, -1.0)))
 
 
 def _dense_jacobian(packing: Packing, interaction: Interaction, side: float) -> np.ndarray:

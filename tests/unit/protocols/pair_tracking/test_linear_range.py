@@ -8,8 +8,8 @@ import pytest
 
 from grainmodes.packing.state import nonaffine_motion
 from grainmodes.parameters.release import GROWTH_RANGE, Release
-from grainmodes.protocols.pair_tracking.detection import ByLapack, Seen, seen_by
-from grainmodes.protocols.pair_tracking.linear_range import fastest_with_room, rooms
+from grainmodes.protocols.pair_tracking.detection import DenseDetector, PairState, detect_pairs
+from grainmodes.protocols.pair_tracking.linear_range import fastest_candidate, linear_ranges
 from grainmodes.protocols.release.outcome import release_outcome
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from released import released, state
@@ -63,7 +63,7 @@ def test_the_room_is_where_contacts_change_on_the_way(opens):
     modes = motions(equilibrium)
     found = [first_change(equilibrium.packing, mode) for mode in np.moveaxis(modes, 2, 0)]
     np.testing.assert_allclose(
-        rooms(equilibrium, modes), [square for square, _ in found], rtol=0.03
+        linear_ranges(equilibrium, modes), [square for square, _ in found], rtol=0.03
     )
     assert {opened for _, opened in found} == {opens}
 
@@ -91,7 +91,7 @@ def test_the_room_is_one_of_a_direction_and_not_of_a_vector():
     equilibrium = sheared_equilibrium()
     modes = motions(equilibrium)
     np.testing.assert_allclose(
-        rooms(equilibrium, 1e-7 * np.exp(0.3j) * modes), rooms(equilibrium, modes)
+        linear_ranges(equilibrium, 1e-7 * np.exp(0.3j) * modes), linear_ranges(equilibrium, modes)
     )
 
 
@@ -102,8 +102,8 @@ def test_a_loose_grain_takes_no_room():
     grain = equilibrium.packing.contacts.i[weakest]
     held = np.arange(equilibrium.packing.n) != grain
     shrunk = narrowed(equilibrium)
-    assert rooms(shrunk, motions(equilibrium)).max() < 1e-15
-    assert rooms(replace(shrunk, backbone_mask=held), motions(equilibrium)).min() > 1e-12
+    assert linear_ranges(shrunk, motions(equilibrium)).max() < 1e-15
+    assert linear_ranges(replace(shrunk, backbone_mask=held), motions(equilibrium)).min() > 1e-12
 
 
 def narrowed(equilibrium: EquilibriumState) -> EquilibriumState:
@@ -118,39 +118,39 @@ def narrowed(equilibrium: EquilibriumState) -> EquilibriumState:
     )
 
 
-def seen(equilibrium: EquilibriumState) -> Seen:
-    return seen_by(ByLapack(), equilibrium)
+def seen(equilibrium: EquilibriumState) -> PairState:
+    return detect_pairs(DenseDetector(), equilibrium)
 
 
 def test_a_state_next_to_a_change_of_contacts_is_passed_over():
     wide, narrow = seen(sheared_equilibrium()), seen(narrowed(sheared_equilibrium()))
     assert len(narrow.pairs.value) > 0
-    chosen = fastest_with_room(wide, 0.0)
+    chosen = fastest_candidate(wide, 0.0)
     assert chosen.growth == wide.pairs.growth.max() == wide.pairs.growth[chosen.place]
     assert chosen.growth == pytest.approx(state()[0].growth_rate)
-    assert chosen.room > GROWTH_RANGE[1]
-    assert fastest_with_room(narrow, 0.0) is None
-    assert fastest_with_room(wide, chosen.growth) is None
+    assert chosen.linear_range > GROWTH_RANGE[1]
+    assert fastest_candidate(narrow, 0.0) is None
+    assert fastest_candidate(wide, chosen.growth) is None
 
 
 def test_of_the_pairs_of_a_state_the_fastest_with_room_is_taken(monkeypatch):
     start = seen(sheared_equilibrium())
     motions_of_pairs = start.motions(np.arange(len(start.pairs.value)))
-    growth, room = start.pairs.growth, rooms(start.equilibrium, motions_of_pairs)
+    growth, room = start.pairs.growth, linear_ranges(start.equilibrium, motions_of_pairs)
     fastest = np.argmax(growth)
     assert room[fastest] < room.max()
     monkeypatch.setattr(
         "grainmodes.protocols.pair_tracking.linear_range.GROWTH_RANGE", (0.0, room[fastest])
     )
-    chosen = fastest_with_room(start, 0.0)
+    chosen = fastest_candidate(start, 0.0)
     assert chosen.growth == growth[room > room[fastest]].max()
-    assert chosen.room == room[chosen.place]
+    assert chosen.linear_range == room[chosen.place]
 
 
 def test_a_release_changes_its_contacts_where_linear_theory_says():
     """Within a factor of three of M: it is looked at now and then, and M swings."""
     start, _, _ = state()
-    expected = rooms(sheared_equilibrium(), start.mode[:, :, None])[0]
+    expected = linear_ranges(sheared_equilibrium(), start.mode[:, :, None])[0]
     outcome = release_outcome(
         released(Release(duration=22.0, min_time=0.0, n_records=2000, spectra=0))
     )
