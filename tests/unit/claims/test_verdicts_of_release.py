@@ -74,9 +74,9 @@ def test_samples_without_a_second_instability_are_told():
 
 def test_the_depth_and_the_run_in_between_are_told():
     found = verdicts(claim_fixtures_release.ensemble())
-    assert "M and A swing by 0.2" in found["C5"].explanation
+    assert "M and A oscillate by 0.2" in found["C5"].explanation
     assert "η_0 = 1 ω_i" in found["C7"].explanation
-    assert "at 0.5" in found["C7"].explanation
+    assert "at the rate 0.5005096(53) ω_i" in found["C7"].explanation
 
 
 def test_which_runs_come_to_a_second_instability_is_told():
@@ -85,4 +85,4 @@ def test_which_runs_come_to_a_second_instability_is_told():
     ensemble["release_second_time"] = second.where(second["damping"] == 0)
     told = verdicts(ensemble)["C7"].explanation
     for times, came in ((0, 6), (0.1, 0), (1, 0)):
-        assert f"At η_0 = {times} ω_i, φ = 0.9, κ = 1 {came} of 6 come to a second" in told
+        assert f"At η_0 = {times} ω_i, φ = 0.9, κ = 1 {came} of 6 reach a second" in told

@@ -101,7 +101,7 @@ def test_the_same_network_before_and_after_an_event_is_told():
     ensemble["event_opened"] = 0.0 * ensemble["event_opened"]
     verdict = verdicts(ensemble)["B9"]
     assert verdict.verdict == HOLDS
-    assert "30 did both; in 1(0) of the events" in verdict.explanation
+    assert "30 did both; the share" in verdict.explanation
 
 
 def test_complex_pairs_are_counted():

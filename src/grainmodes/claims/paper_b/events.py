@@ -5,8 +5,9 @@
     λ_min        Curve.lowest_eigenvalue                                    Figs. 3, 7, 13
     g            Curve.modulus                                              Figs. 3, 7
 
-Seen are the states that lead up to an event on the same contacts, over the last steps Δγ_in at most
-(`ensemble.curves.Approach`). Means over the events of a sample first, over the samples then.
+"Before an event" means the states that lead up to it without any change of contacts, at most over
+the last few steps Δγ_in (`ensemble.curves.Approach`). Averages run over the events of each sample
+first, and then over the samples.
 """
 
 from __future__ import annotations
@@ -20,43 +21,44 @@ from grainmodes.ensemble.curves import Approach, Curve
 from grainmodes.statistics.estimates import mean
 
 MAX_TREND = 0.05
-"""Relative change of λ_min before an event that would be a precursor; a square root gives 1."""
+"""Relative change of λ_min before an event that counts as a precursor; a square root gives 1."""
 
 MIN_JUMP_RATIO = 10.0
-"""Times the trend of the states before by which λ_min changes where it jumps."""
+"""Ratio of the change of λ_min in an event to its trend before, above which it is a jump."""
 
 MIN_SHARE = 0.9
-"""Share of all events that counts as all: the eigenvalue of another place may be the lowest."""
+"""Share of the events that counts as all; the lowest mode may belong to another place."""
 
 POLE_NAMES = ("event_quadrupole", "event_other_multipoles")
 
 PURE_QUADRUPOLE = 0.617
-"""p_2 of rotations that go as cos 2ϑ: (π/4)²."""
+"""p_2 of rotations proportional to cos 2ϑ: (π/4)²."""
 
 MIN_STATES = 5
-"""States without which a singular part is not told from a regular one."""
+"""Smallest number of states for a fit of a singular and a regular part."""
 
 
 @claim("B3", unit="1")
 def jump_without_precursor(ensemble) -> Outcome:
-    """The smallest eigenvalue λ_min jumps at γ_c, and no trend announces it (Figs. 3, 7, 13).
+    """The smallest eigenvalue λ_min jumps at γ_c without a precursor (Figs. 3, 7, 13).
 
-    Relative change of λ_min on the states that lead up to an event, mean over events; share of the
-    events at which it changes by more than ten times what this trend gives.
+    The trend is the relative change of λ_min over the states before an event, averaged over events.
+    The jumps are the share of the events in which λ_min changes by more than ten times the change
+    that its trend gives for the same step.
 
-    Criterion: the change within ±5 %, the share above 0.9.
+    Criterion: The trend is within ±5 %, and the share of jumps is above 0.9.
     """
     parts, notes = [], []
-    for where, of in sheared(ensemble, "curve_lowest_eigenvalue"):
-        parts.append(Part(f"trend, {where}", over_samples(of, _trend), -MAX_TREND, MAX_TREND))
-        parts.append(Part(f"jumps, {where}", over_samples(of, _share_of_jumps), MIN_SHARE))
-        falls = np.concatenate([_trends(curve) for curve in of])
-        size = over_samples(of, _size_of_jump)
+    for where, curves in sheared(ensemble, "curve_lowest_eigenvalue"):
+        parts.append(Part(f"trend, {where}", over_samples(curves, _trend), -MAX_TREND, MAX_TREND))
+        parts.append(Part(f"jumps, {where}", over_samples(curves, _share_of_jumps), MIN_SHARE))
+        changes = np.concatenate([_trends(curve) for curve in curves])
+        size = over_samples(curves, _size_of_jump)
         notes.append(
-            f"At {where} λ_min changes by {size} of itself in an event, and before "
-            f"{(falls < -MAX_TREND).sum()} of {len(falls)} events it falls by more than 5 %."
+            f"At {where} the relative change of λ_min in an event is {size}; before "
+            f"{(changes < -MAX_TREND).sum()} of {len(changes)} events it falls by more than 5 %."
         )
-    return Outcome(_measured(parts, "λ_min on states before events"), " ".join(notes))
+    return Outcome(_measured(parts, "λ_min of states before events"), " ".join(notes))
 
 
 def _measured(parts: list[Part], needed: str) -> list[Part]:
@@ -66,23 +68,23 @@ def _measured(parts: list[Part], needed: str) -> list[Part]:
     return known
 
 
-def _seen(curve: Curve, fewest: int) -> list[Approach]:
-    return [a for a in curve.approaches if a.last - a.first + 1 >= fewest]
+def _approaches(curve: Curve, min_states: int) -> list[Approach]:
+    return [a for a in curve.approaches if a.last - a.first + 1 >= min_states]
 
 
 def _trends(curve: Curve) -> np.ndarray:
-    seen = _seen(curve, 2)
-    first, last = (curve.lowest_eigenvalue[[a[side] for a in seen]] for side in (0, 1))
+    approaches = _approaches(curve, 2)
+    first, last = (curve.lowest_eigenvalue[[a[side] for a in approaches]] for side in (0, 1))
     return (last - first) / np.abs(first)
 
 
 def _trend(curve: Curve) -> float:
-    return np.mean(_trends(curve)) if _seen(curve, 2) else np.nan
+    return np.mean(_trends(curve)) if _approaches(curve, 2) else np.nan
 
 
 def _share_of_jumps(curve: Curve) -> float:
     sudden = []
-    for first, last in _seen(curve, 2):
+    for first, last in _approaches(curve, 2):
         slope = (curve.lowest_eigenvalue[last] - curve.lowest_eigenvalue[first]) / (
             curve.strain[last] - curve.strain[first]
         )
@@ -103,20 +105,20 @@ def _size_of_jump(curve: Curve) -> float:
 def no_singularity(ensemble) -> Outcome:
     """The rigidity has no singularity -(γ_c - γ)^(-1/2) below γ_c (Fig. 3).
 
-    g on the states that lead up to an event is fitted with a + b (γ_c - γ) + A (γ_c - γ)^(-1/2);
-    measured is the last term at the last of them, over the mean |g| of the sample.
+    g of the states before an event is fitted by a + b (γ_c - γ) + A (γ_c - γ)^(-1/2). The measured
+    number is the last term at the last of these states, over the mean |g| of the sample.
 
-    Criterion: within ±1 %.
+    Criterion: The singular term is within ±1 % of the mean |g|.
     """
     parts = [
-        Part(where, over_samples(of, _singular), -TOLERANCE, TOLERANCE)
-        for where, of in sheared(ensemble, "curve_g_xy")
+        Part(where, over_samples(curves, _singular), -TOLERANCE, TOLERANCE)
+        for where, curves in sheared(ensemble, "curve_g_xy")
     ]
     return Outcome(_measured(parts, f"events with {MIN_STATES} states before them"))
 
 
 def _singular(curve: Curve) -> float:
-    terms = [_singular_term(curve, approach) for approach in _seen(curve, MIN_STATES)]
+    terms = [_singular_term(curve, approach) for approach in _approaches(curve, MIN_STATES)]
     return np.mean(terms) / np.abs(curve.modulus).mean() if terms else np.nan
 
 
@@ -133,35 +135,35 @@ def _singular_term(curve: Curve, approach: Approach) -> float:
 def quadrupole_of_rotations(ensemble) -> Outcome:
     """Domains of rotating grains in an event form a quadrupole (Fig. 6).
 
-    p_m = |Σ Δℓ exp(i m ϑ)|² / (Σ |Δℓ|)² around the grain that moves farthest, mean over events;
-    p_2 = 0.62 where Δℓ goes as cos 2ϑ.
+    p_m is |Σ Δℓ exp(i m ϑ)|² / (Σ |Δℓ|)² around the grain that moves farthest, averaged over the
+    events. If Δℓ is proportional to cos 2ϑ, p_2 is 0.62.
 
-    Criterion: p_2 above half of that.
+    Criterion: p_2 is above 0.31, half of this value.
     """
     samples = harmonic(ensemble, "event_quadrupole")
     parts, notes = [], []
     for point in samples.points("event_quadrupole"):
-        four, others = (_by_sample(samples.values(name, *point)) for name in POLE_NAMES)
-        parts.append(Part(label(*point), mean(four), low=0.5 * PURE_QUADRUPOLE))
-        excess = mean(four - others)
+        quadrupole, others = (_by_sample(samples.values(name, *point)) for name in POLE_NAMES)
+        parts.append(Part(label(*point), mean(quadrupole), low=0.5 * PURE_QUADRUPOLE))
+        excess = mean(quadrupole - others)
         notes.append(f"At {label(*point)} p_2 exceeds the mean of p_1, p_3 and p_4 by {excess}.")
     return Outcome(_measured(parts, "events"), " ".join(notes))
 
 
 def _by_sample(values: np.ndarray) -> np.ndarray:
-    """Mean over the events of every sample that has some, (S,)."""
-    seen = np.isfinite(values).any(axis=1)
-    return np.nanmean(values[seen], axis=1)
+    """Mean over the events of each sample, for samples with events."""
+    known = np.isfinite(values).any(axis=1)
+    return np.nanmean(values[known], axis=1)
 
 
 @claim("B9", unit="1")
 def contacts_at_events(ensemble) -> Outcome:
     """Contacts open or close at every plastic event (Sec. IV, Fig. 8).
 
-    Share of the events between whose two states a contact opened, closed, or opened and closed
-    again, its spring unloaded.
+    This is the share of the events in which a contact opened, or closed, or opened and closed again
+    with its spring unloaded.
 
-    Criterion: above 0.9.
+    Criterion: The share is above 0.9.
     """
     names = ("event_opened", "event_closed", "event_reopened")
     samples = harmonic(ensemble, "curve_strain", *names)
@@ -170,20 +172,20 @@ def contacts_at_events(ensemble) -> Outcome:
         kind, *changes = (samples.values(name, *point) for name in ("event_kind", *names))
         happened = kind > 0
         changed, lasting = (
-            np.where(happened, sum(of) > 0, np.nan) for of in (changes, changes[:2])
+            np.where(happened, sum(counts) > 0, np.nan) for counts in (changes, changes[:2])
         )
         parts.append(Part(label(*point), mean(_share(changed)), MIN_SHARE))
-        opened, closed, again = (int(of[happened].sum()) for of in changes)
+        opened, closed, again = (int(counts[happened].sum()) for counts in changes)
         notes.append(
             f"In {happened.sum()} events at {label(*point)} {opened} contacts opened, "
-            f"{closed} closed and {again} did both; in {mean(1.0 - _share(lasting))} of the events "
-            "of a sample the network is the same before and after."
+            f"{closed} closed and {again} did both; the share of the events of a sample with the "
+            f"same network before and after is {mean(1.0 - _share(lasting))}."
         )
     return Outcome(_measured(parts, "events"), " ".join(notes))
 
 
 def _share(happened: np.ndarray) -> np.ndarray:
-    """Share by sample of (S, E) of 1 and 0; NaN: no event."""
+    """Share of each sample, (S,), from (S, E) of 1 and 0, NaN where there is no event."""
     known = np.isfinite(happened).sum(axis=1)
     with np.errstate(invalid="ignore"):
         return np.where(known > 0, np.nansum(happened, axis=1) / known, np.nan)

@@ -2,7 +2,7 @@
 
 symbol          name                                              paper B
 |J - Jᵀ|        event_asymmetry_after, over max|J|                App. C 2, D 3
-complex pairs   event_complex_pairs_after, of M⁻¹J                Sec. III A: none
+complex pairs   event_complex_pairs_after, of M⁻¹J                Sec. III A: there are none
 """
 
 from __future__ import annotations
@@ -15,43 +15,44 @@ from grainmodes.claims.samples import Samples, label
 from grainmodes.statistics.estimates import mean
 
 MAX_LOG_ASYMMETRY = -12.0
-"""log10 of max|J - Jᵀ| / max|J| below which it is rounding."""
+"""log10 of max|J - Jᵀ| / max|J| below which an asymmetry is round-off."""
 
-UNBRACKETED = ("coarse_strain", "coarse_stress")
+COARSE_NAMES = ("coarse_strain", "coarse_stress")
 
 STRAIN_RANGES = (
     ("γ ≤ 0.08", 0.0, 0.08, (-np.inf, TOLERANCE)),
     ("γ > 0.08", 0.08, np.inf, (TOLERANCE, np.inf)),
 )
-"""Where the two curves are compared, and the interval of their difference."""
+"""Name, ends of the range of strain, and the interval of the difference expected there."""
 
 STRAIN_TOLERANCE = 1e-12
-"""Strains that are the same may differ by so much."""
+"""Largest difference of two strains that count as equal."""
 
 SMALLEST_ASYMMETRY = 1e-17
-"""What stands for no difference at all."""
+"""Relative asymmetry that replaces 0, which has no logarithm."""
 
 BRACKET_NAMES = ("min_step", "strain_before", "strain_after")
 
 MAX_CONVERGED_STEP = 1.1e-6
-"""Δγ_Th from which on γ_c has converged: 1e-6, with room for rounding."""
+"""Largest Δγ_Th at which γ_c has converged: 1e-6, with a margin for round-off."""
 
 
 @claim("B2", unit="1")
 def independent_of_min_step(ensemble) -> Outcome:
-    """Below γ = 0.08 the stress does not depend on Δγ_Th, above it does (Fig. 2).
+    """The stress does not depend on Δγ_Th up to γ = 0.08, and depends on it above (Fig. 2).
 
-    Root mean square of the difference of σ with events bracketed and not, in parts of that of σ.
+    This is the root mean square of the difference of σ with and without bracketed events, over the
+    root mean square of σ.
 
-    Criterion: below 1 % up to γ = 0.08, above 1 % beyond.
+    Criterion: The difference is below 1 % up to γ = 0.08, and above 1 % beyond.
     """
     samples = harmonic(ensemble, "curve_strain", "coarse_strain")
     parts = []
     for point in samples.points("coarse_strain"):
         names = ("curve_strain", "curve_stress_xy", "curve_stress_yx")
-        of = [samples.values(name, *point) for name in (*names, *UNBRACKETED)]
+        curves = [samples.values(name, *point) for name in (*names, *COARSE_NAMES)]
         for where, low, high, interval in STRAIN_RANGES:
-            off = np.array([_apart(*rows, low, high) for rows in zip(*of, strict=True)])
+            off = np.array([_apart(*rows, low, high) for rows in zip(*curves, strict=True)])
             if np.isfinite(off).any():
                 parts.append(
                     Part(f"{where}, {label(*point)}", mean(off[np.isfinite(off)]), *interval)
@@ -60,7 +61,7 @@ def independent_of_min_step(ensemble) -> Outcome:
 
 
 def _apart(strain, stress_xy, stress_yx, coarse_strain, coarse_stress, low, high) -> float:
-    """Relative difference of two curves on the grid of Δγ_in in (low, high]; NaN without any."""
+    """Relative difference of two curves on the grid of Δγ_in in (low, high]; NaN if it is empty."""
     grid = (coarse_strain > low + STRAIN_TOLERANCE) & (coarse_strain < high + STRAIN_TOLERANCE)
     if not grid.any():
         return np.nan
@@ -74,9 +75,10 @@ def _apart(strain, stress_xy, stress_yx, coarse_strain, coarse_stress, low, high
 def critical_strain_converges(ensemble) -> Outcome:
     """The strain γ_c of an event converges for Δγ_Th ≤ 1e-6 (App. B, Fig. 12).
 
-    Distance of γ_c from the one of the closest bracket, for the first event of every sample.
+    This is the distance, in units of Δγ_Th, of γ_c from that of the narrowest bracket, for the
+    first event of every sample.
 
-    Criterion: at most Δγ_Th at every Δγ_Th ≤ 1e-6 but the closest, in the mean.
+    Criterion: The mean distance is at most Δγ_Th at every Δγ_Th ≤ 1e-6 but the smallest.
     """
     samples = harmonic(ensemble, "bracket_min_step")
     parts = []
@@ -90,18 +92,18 @@ def critical_strain_converges(ensemble) -> Outcome:
             where = f"Δγ_Th = {widths[column]:.0e}, {label(*point)}"
             parts.append(Part(where, mean(known), high=1.0))
     if not parts:
-        raise NotTested("events in brackets of 1e-6 and less")
+        raise NotTested("events with brackets of 1e-6 or less")
     return Outcome(parts)
 
 
 @claim("B6", unit="1")
 def symmetric_jacobian(ensemble) -> Outcome:
-    """At any strain the Jacobian is symmetric, and the sum of slips tangential (App. A, C 2, D 3).
+    """The Jacobian is symmetric and the sum of slips tangential at any strain (App. A, C 2, D 3).
 
-    Mean over the events of log10 of max|J - Jᵀ| / max|J| of the state after. The sum of slips is
-    tangential here by construction, s being a number that turns with the contact.
+    This is log10 of max|J - Jᵀ| / max|J| of the state after an event, averaged over events. The sum
+    of slips is tangential here by construction, because s is a number that turns with the contact.
 
-    Criterion: below -12.
+    Criterion: The number is below -12.
     """
     samples = harmonic(ensemble, "event_asymmetry_after")
     parts, notes = [], []
@@ -109,16 +111,16 @@ def symmetric_jacobian(ensemble) -> Outcome:
         by_event = np.log10(
             np.maximum(samples.values("event_asymmetry_after", *point), SMALLEST_ASYMMETRY)
         )
-        seen = np.isfinite(by_event).any(axis=1)
+        known = np.isfinite(by_event).any(axis=1)
         parts.append(
-            Part(label(*point), mean(np.nanmean(by_event[seen], axis=1)), high=MAX_LOG_ASYMMETRY)
+            Part(label(*point), mean(np.nanmean(by_event[known], axis=1)), high=MAX_LOG_ASYMMETRY)
         )
         notes.append(_pairs(samples, point))
     return Outcome(parts, " ".join(notes))
 
 
 def _pairs(samples: Samples, point: tuple[float, float]) -> str:
-    """How many states have complex pairs, after events and at the last strain."""
+    """A sentence on the states with complex pairs after events and at the last strain."""
     sentences = []
     for states, name in (
         ("states after events", "event_complex_pairs_after"),

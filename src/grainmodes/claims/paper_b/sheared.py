@@ -1,4 +1,4 @@
-"""The sheared samples that the claims of paper B are about: harmonic grains."""
+"""The sheared samples of harmonic grains that the claims of paper B are about."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from grainmodes.ensemble.curves import Curve, curves
 from grainmodes.statistics.estimates import Estimate, mean
 
 TOLERANCE = 0.01
-"""Relative difference of two numbers that a figure of B does not show."""
+"""Relative difference of two numbers that is not visible in a figure of B."""
 
 
 def harmonic(ensemble, *names: str) -> Samples:
-    """The samples of the N with most points that have all the variables.
+    """The samples of the N that has all the variables at most points, for harmonic grains.
 
     Raises:
         NotTested: the ensemble lacks one of the variables, or its grains are not harmonic.
@@ -41,7 +41,7 @@ def sheared(ensemble, *names: str) -> Iterator[tuple[str, list[Curve]]]:
             yield label(*point), moved
 
 
-def over_samples(of: list[Curve], number: Callable[[Curve], float]) -> Estimate:
-    """Mean over the samples of a number of a curve; NaN leaves a sample out."""
+def over_samples(curves_of_samples: list[Curve], number: Callable[[Curve], float]) -> Estimate:
+    """Mean over the samples of a number of each curve; NaN leaves a sample out."""
     with np.errstate(invalid="ignore", divide="ignore"):
-        return mean(np.array([number(curve) for curve in of]))
+        return mean(np.array([number(curve) for curve in curves_of_samples]))

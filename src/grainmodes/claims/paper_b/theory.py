@@ -6,7 +6,7 @@
     σ_th         σ + g Δγ of the step before                                Eq. 51
     G_0          g, and g_simulated, before any strain                      App. E 2
 
-Numbers of one curve first, their mean and its error over the samples then.
+Numbers are taken from each curve first; their mean and its error are those over the samples.
 """
 
 from __future__ import annotations
@@ -22,60 +22,61 @@ from grainmodes.ensemble.curves import Curve, even_bins
 from grainmodes.statistics.estimates import Estimate, complete, mean, relative_difference
 
 N_BINS = 10
-"""Parts of the whole strain in which mean rigidities are compared."""
+"""Number of bins of strain in which mean rigidities are compared."""
 
 RIGIDITY_TOLERANCE = 0.05
-"""Relative difference of two mean rigidities that stands out of the error bars of B, Fig. 9."""
+"""Relative difference of two mean rigidities that exceeds the error bars of B, Fig. 9."""
 
 MIN_DECADES = 1.0
-"""Range of log10 Δγ without which no order is fitted."""
+"""Smallest range of log10 Δγ for a fit of an order."""
 
 
 @claim("B1", unit="1")
 def theory_is_simulation(ensemble) -> Outcome:
-    """σ_th(γ + Δγ) = σ + g Δγ is the simulated stress at every strain, events apart (Figs. 1, 8).
+    """σ_th(γ + Δγ) = σ + g Δγ equals the simulated stress, except in events (Figs. 1, 8).
 
-    Of every sample: over the steps without an event the root mean square of σ - σ_th over that of
-    σ; over those in which also no contact changed the sum of |σ - σ_th| over that of |g Δγ|; and
-    where steps of several sizes lead up to an event, the order of |σ - σ_th| in Δγ.
+    Three numbers are taken from every sample: the root mean square of σ - σ_th over the steps
+    without an event, over that of σ; the sum of |σ - σ_th| over the steps in which no contact
+    changed, over that of |g Δγ|; and the order of |σ - σ_th| in Δγ, if steps of several sizes
+    precede an event.
 
-    Criterion: both below 1 %, the order within 1.8 ... 2.2.
+    Criterion: The first two are below 1 %, and the order lies within 1.8 ... 2.2.
     """
     parts, notes = [], []
-    for where, of in sheared(ensemble, "curve_g_xy"):
-        parts.append(Part(f"σ, {where}", over_samples(of, _of_stress), high=TOLERANCE))
-        parts.append(
-            Part(f"quiet steps, {where}", over_samples(of, _of_quiet_steps), high=TOLERANCE)
-        )
-        order = over_samples(of, _order)
+    for where, curves in sheared(ensemble, "curve_g_xy"):
+        of_stress = over_samples(curves, _deviation_of_stress)
+        in_quiet_steps = over_samples(curves, _deviation_in_quiet_steps)
+        parts.append(Part(f"σ, {where}", of_stress, high=TOLERANCE))
+        parts.append(Part(f"quiet steps, {where}", in_quiet_steps, high=TOLERANCE))
+        order = over_samples(curves, _order)
         if np.isfinite(order.value):
             parts.append(Part(f"order, {where}", order, 1.8, 2.2))
-        loud = over_samples(of, lambda curve: _loud(curve).sum() / (~curve.event).sum())
-        if loud.value > 0.0:
-            off = over_samples(of, _of_changed_steps)
+        changed = over_samples(curves, _share_of_changed_steps)
+        if changed.value > 0.0:
+            deviation = over_samples(curves, _deviation_in_changed_steps)
             notes.append(
-                f"In {100.0 * loud.value:.2g} % of the steps without an event at {where} contacts "
-                f"open, close or let go of their spring; there the step is off by {off} of "
-                "its size."
+                f"In {100.0 * changed.value:.2g} % of the steps without an event at {where} "
+                f"contacts open, close or release their spring. In these steps |σ - σ_th| is "
+                f"{deviation} of |g Δγ|."
             )
     return Outcome(parts, " ".join(notes))
 
 
-def _of_stress(curve: Curve) -> float:
-    missing = curve.deviation[~curve.event]
-    return np.sqrt((missing**2).mean() / (curve.stress**2).mean())
+def _deviation_of_stress(curve: Curve) -> float:
+    deviation = curve.deviation[~curve.event]
+    return np.sqrt((deviation**2).mean() / (curve.stress**2).mean())
 
 
-def _of_quiet_steps(curve: Curve) -> float:
+def _deviation_in_quiet_steps(curve: Curve) -> float:
     return _relative(curve, curve.quiet)
 
 
-def _of_changed_steps(curve: Curve) -> float:
-    return _relative(curve, _loud(curve))
+def _deviation_in_changed_steps(curve: Curve) -> float:
+    return _relative(curve, curve.changed & ~curve.event)
 
 
-def _loud(curve: Curve) -> np.ndarray:
-    return curve.changed & ~curve.event
+def _share_of_changed_steps(curve: Curve) -> float:
+    return (curve.changed & ~curve.event).sum() / (~curve.event).sum()
 
 
 def _relative(curve: Curve, steps: np.ndarray) -> float:
@@ -83,13 +84,13 @@ def _relative(curve: Curve, steps: np.ndarray) -> float:
 
 
 def _order(curve: Curve) -> float:
-    """Mean over the events of d log|σ - σ_th| / d log Δγ on their approaches, above round-off."""
-    above = 5.0 * curve.step.min(initial=np.inf)
+    """Mean over the events of d log|σ - σ_th| / d log Δγ before them, for steps above round-off."""
+    smallest = 5.0 * curve.step.min(initial=np.inf)
     slopes = []
     for first, last in curve.approaches:
-        step, missing = curve.step[first:last], np.abs(curve.deviation[first:last])
-        used = (step > above) & (missing > 0.0)
-        x, y = np.log10(step[used]), np.log10(missing[used])
+        step, deviation = curve.step[first:last], np.abs(curve.deviation[first:last])
+        used = (step > smallest) & (deviation > 0.0)
+        x, y = np.log10(step[used]), np.log10(deviation[used])
         if used.sum() > 2 and np.ptp(x) >= MIN_DECADES:
             slopes.append(np.polyfit(x, y, 1)[0])
     return np.mean(slopes) if slopes else np.nan
@@ -97,18 +98,18 @@ def _order(curve: Curve) -> float:
 
 @claim("B8", unit="1")
 def mean_rigidity(ensemble) -> Outcome:
-    """The mean rigidity G(γ) of the theory is that of the simulation (Fig. 9).
+    """The mean rigidity G(γ) of the theory equals that of the simulation (Fig. 9).
 
-    Relative difference of the mean of Δσ/Δγ and the mean of g, paired by sample, over the steps
-    without an event in every tenth of the strain.
+    This is the relative difference of the mean of Δσ/Δγ and the mean of g, paired by sample, over
+    the steps without an event in every tenth of the strain.
 
-    Criterion: |difference| < 5 % in every tenth.
+    Criterion: The relative difference is within ±5 % in every tenth.
     """
     parts, notes = [], []
-    for where, of in sheared(ensemble, "curve_g_xy"):
-        edges = even_bins(of, N_BINS)
-        theory = np.array([curve.mean_slopes(curve.predicted_change, edges) for curve in of])
-        simulation = np.array([curve.mean_slopes(curve.stress_change, edges) for curve in of])
+    for where, curves in sheared(ensemble, "curve_g_xy"):
+        edges = even_bins(curves, N_BINS)
+        theory = np.array([curve.mean_slopes(curve.predicted_change, edges) for curve in curves])
+        simulation = np.array([curve.mean_slopes(curve.stress_change, edges) for curve in curves])
         for bin_, (low, high) in enumerate(pairwise(edges)):
             difference = relative_difference(simulation[:, bin_], theory[:, bin_])
             parts.append(
@@ -122,19 +123,19 @@ def mean_rigidity(ensemble) -> Outcome:
         whole = relative_difference(simulation.mean(axis=1), theory.mean(axis=1))
         first, final = (mean(theory[complete(theory), place]) for place in (0, -1))
         notes.append(
-            f"Over all strains at {where} the difference is {whole}; G goes from "
-            f"{first} in the first tenth to {final} in the last."
+            f"Over all strains at {where} the difference is {whole}; G is "
+            f"{first} in the first tenth and {final} in the last."
         )
     return Outcome(parts, " ".join(notes))
 
 
 @claim("B10", unit="1")
 def rigidity_before_strain(ensemble) -> Outcome:
-    """The rigidity G_0(φ, k_T/k_N) before any strain is that of the simulation (Fig. 16).
+    """The rigidity G_0(φ, k_T/k_N) before any strain equals that of the simulation (Fig. 16).
 
-    Relative difference of g_simulated and g, paired by seed, at every point.
+    This is the relative difference of g_simulated and g, paired by seed, at every point.
 
-    Criterion: |G_simulated - G_0| < 1 % of G_0.
+    Criterion: The relative difference is within ±1 % at every point.
     """
     samples = harmonic(ensemble, "g", "g_simulated")
     parts = [

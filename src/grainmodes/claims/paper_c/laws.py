@@ -1,12 +1,13 @@
 """Claims of paper C on other contact laws: C8 and C9, of harmonic grains.
 
 symbol    name                                                              paper C
-λ pairs   comparison_pairs_slipping, comparison_pairs_sticking, by law            Sec. VIII
-ω_i       comparison_rate, by law                                              (12)
-growth    comparison_growth of the released state, over ω_i                    (13), Fig. 12(b)
+λ pairs   comparison_pairs_slipping, comparison_pairs_sticking, by law      Sec. VIII
+ω_i       comparison_rate, by law                                           (12)
+growth    comparison_growth of the released state, over ω_i                 (13), Fig. 12(b)
 
-At Coulomb's threshold a sharp spring slips one way and sticks the other, and J has a limit on
-either side. C counts no slip there ("the Hamiltonian remains valid"), which is the sticking side.
+At Coulomb's threshold a sharp spring slips in one direction and sticks in the other, and J has a
+different limit on each side. C counts no slip there ("the Hamiltonian remains valid"), which is the
+sticking side.
 """
 
 from __future__ import annotations
@@ -19,34 +20,34 @@ from grainmodes.ensemble import normal_law
 from grainmodes.statistics.estimates import Estimate, mean
 
 MIN_SHARE = 0.5
-"""Share of the samples that must have a pair somewhere on their way."""
+"""Share of the samples that must have a pair in some state."""
 
 MAX_SHARE = 0.02
-"""Share of states that stands for none."""
+"""Share of states below which a sample counts as one without pairs."""
 
 GROWTH_RANGE = (0.9, 1.1)
-"""Growth over ω_i of what grows as linear theory says."""
+"""Range of the growth over ω_i that agrees with linear theory."""
 
 MAX_GROWTH = 0.1
-"""Growth over ω_i below which it does not."""
+"""Growth over ω_i below which a state does not grow."""
 
 
 @claim("C8", unit="1")
 def smoothed_is_unstable(ensemble) -> Outcome:
     """Harmonic grains with the smoothed Coulomb law have the same instability (Sec. VIII, Fig. 12).
 
-    Share of the sheared samples in which complex pairs are born; and the growth rate of released
-    states over ω_i, mean over the states of a sample.
+    These are the share of the sheared samples in which complex pairs are born, and the growth rate
+    of released states over ω_i, averaged over the states of a sample.
 
-    Criterion: above one half; 0.9 to 1.1.
+    Criterion: The share is above one half, and the growth rate over ω_i lies within 0.9 ... 1.1.
     """
     samples, points = _harmonic(ensemble, "smoothed_coulomb")
     parts, notes = [], []
     for point in points:
-        pairs = _of(samples, "pairs_slipping", "smoothed_coulomb", point)
+        pairs = _by_state(samples, "pairs_slipping", "smoothed_coulomb", point)
         parts.append(Part(f"born, {label(*point)}", mean(_born(pairs)), MIN_SHARE))
         parts.append(Part(f"growth, {label(*point)}", _growth(samples, point), *GROWTH_RANGE))
-        notes.append(f"{mean(np.nanmean(pairs, axis=1))} pairs a state at {label(*point)}.")
+        notes.append(f"A state has {mean(np.nanmean(pairs, axis=1))} pairs at {label(*point)}.")
     return Outcome(_resolved(parts), " ".join(notes))
 
 
@@ -54,20 +55,20 @@ def smoothed_is_unstable(ensemble) -> Outcome:
 def sharp_is_stable(ensemble) -> Outcome:
     """Harmonic grains with the sharp Coulomb law do not have the instability (Sec. VIII).
 
-    Share of states with complex pairs of the J whose springs stick at their threshold; and the
-    growth rate of released states that have pairs if these springs slip, over their ω_i, the
-    largest of a sample.
+    These are the share of the states in which J has complex pairs if springs at their threshold
+    stick, and the largest growth rate over ω_i among the released states of a sample that have
+    pairs if these springs slip.
 
-    Criterion: below 0.02; below 0.1.
+    Criterion: The share is below 0.02, and the growth rate over ω_i is below 0.1.
     """
     samples, points = _harmonic(ensemble, "sharp_coulomb")
     parts, notes = [], []
     for point in points:
-        held, slipped = (
-            _of(samples, name, "sharp_coulomb", point)
+        sticking, slipping = (
+            _by_state(samples, name, "sharp_coulomb", point)
             for name in ("pairs_sticking", "pairs_slipping")
         )
-        parts.append(Part(f"sticking, {label(*point)}", mean(_share(held)), high=MAX_SHARE))
+        parts.append(Part(f"sticking, {label(*point)}", mean(_share(sticking)), high=MAX_SHARE))
         ratio = _ratio(samples, "sharp_coulomb", point)
         largest = np.where(np.isfinite(ratio), ratio, -np.inf).max(axis=1)
         growth = Part(
@@ -75,8 +76,8 @@ def sharp_is_stable(ensemble) -> Outcome:
         )
         parts.append(growth)
         notes.append(
-            f"At {label(*point)} springs that slip make pairs in {mean(_share(slipped))} of "
-            f"the states; of {np.isfinite(ratio).sum()} released ones "
+            f"At {label(*point)} the share of states with pairs is {mean(_share(slipping))} if "
+            f"springs slip; of {np.isfinite(ratio).sum()} released states "
             f"{(ratio > MAX_GROWTH).sum()} grow."
         )
     return Outcome(_resolved(parts), " ".join(notes))
@@ -95,10 +96,10 @@ def _harmonic(ensemble, law: str) -> tuple[Samples, list[tuple[float, float]]]:
     return samples, samples.points(name)
 
 
-def _of(samples: Samples, number: str, law: str, point: tuple[float, float]) -> np.ndarray:
-    """A number of the states of every jammed sample, (S, states); rows without any left out."""
-    of = samples.values(f"comparison_{number}_{law}", *point)
-    return of[np.isfinite(samples.values(f"comparison_rate_{law}", *point)).any(axis=1)]
+def _by_state(samples: Samples, number: str, law: str, point: tuple[float, float]) -> np.ndarray:
+    """A number (S, M) of the M states of every jammed sample that has one."""
+    values = samples.values(f"comparison_{number}_{law}", *point)
+    return values[np.isfinite(samples.values(f"comparison_rate_{law}", *point)).any(axis=1)]
 
 
 def _born(pairs: np.ndarray) -> np.ndarray:
@@ -112,7 +113,7 @@ def _share(pairs: np.ndarray) -> np.ndarray:
 
 def _ratio(samples: Samples, law: str, point: tuple[float, float]) -> np.ndarray:
     """Growth over ω_i, NaN where there is no pair; (S, states)."""
-    growth, rate = (_of(samples, name, law, point) for name in ("growth", "rate"))
+    growth, rate = (_by_state(samples, name, law, point) for name in ("growth", "rate"))
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where(rate > 0.0, growth / rate, np.nan)
 
@@ -126,5 +127,5 @@ def _growth(samples: Samples, point: tuple[float, float]) -> Estimate:
 
 
 def _resolved(parts: list[Part]) -> list[Part]:
-    """Without those that no state stands behind: no pair, no growth."""
+    """The parts with a number: a sample without pairs has no growth."""
     return [part for part in parts if np.isfinite(part.estimate.value)]

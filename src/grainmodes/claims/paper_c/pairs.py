@@ -5,7 +5,7 @@
     λ1 − λ2       the root of PairSample.neighbours["discriminant"]            (21)
     ⟨u1|u2⟩       PairSample.neighbours["product"]                             Figs. 2 and 3
 
-Means over the exceptional points of a sample first, over the samples then.
+Averages run over the exceptional points of each sample first, and then over the samples.
 """
 
 from __future__ import annotations
@@ -21,30 +21,31 @@ from grainmodes.ensemble.exceptional import PairSample, pair_samples
 from grainmodes.statistics.estimates import Estimate, mean
 
 EXPONENT, EXPONENT_TOLERANCE = 0.5, 0.01
-"""C (21), and how far a measured exponent may lie from it."""
+"""The exponent of C (21), and the largest difference of a measured one to it."""
 
 MIN_PRODUCT = 0.999
-"""Scalar product from which two eigenvectors are parallel; C's figures show less."""
+"""Scalar product above which two eigenvectors count as parallel; C's figures resolve less."""
 
 MIN_SHARE = 0.5
-"""Share of the samples in which a pair must have been born."""
+"""Share of the samples in which a pair must be born."""
 
 
 @claim("C1", unit="1")
 def born_under_shear(ensemble) -> Outcome:
     """Complex pairs are born under quasistatic shear from states that have none (Fig. 1).
 
-    Pairs in the first state; share of the samples with a pair in any later state.
+    These are the number of pairs in the first state, and the share of the samples with a pair in
+    any later state.
 
-    Criterion: no pair in the first state, a share above 0.5.
+    Criterion: The first state has no pair, and the share is above 0.5.
     """
     parts, notes = [], []
-    for of in samples_by_size(ensemble, "pair_count"):
-        for point in of.points("pair_count"):
-            pairs = of.values("pair_count", *point)
-            where = f"N = {of.n}, {label(*point)}"
+    for samples in samples_by_size(ensemble, "pair_count"):
+        for point in samples.points("pair_count"):
+            pairs = samples.values("pair_count", *point)
+            where = f"N = {samples.n}, {label(*point)}"
             born = np.where(np.isfinite(pairs[:, 0]), np.nansum(pairs, axis=1) > 0.0, np.nan)
-            parts.append(Part(f"at first, {where}", mean(pairs[:, 0]), -0.5, 0.5))
+            parts.append(Part(f"first state, {where}", mean(pairs[:, 0]), -0.5, 0.5))
             parts.append(Part(f"share, {where}", mean(born), MIN_SHARE))
             notes.append(f"At {where} the last state has {mean(_last(pairs))} pairs.")
     return Outcome(parts, " ".join(notes))
@@ -61,20 +62,21 @@ def _last(pairs: np.ndarray) -> np.ndarray:
 def square_root(ensemble) -> Outcome:
     """|λ1 − λ2| grows as |γ − γ_c|^(1/2) at births and at deaths, on both sides (Fig. 4).
 
-    Exponent by least squares, median over the coalescences of a sample.
+    The exponent is fitted by least squares; the number of a sample is the median over its births or
+    deaths.
 
-    Criterion: 0.49 to 0.51.
+    Criterion: The exponent lies within 0.49 ... 0.51.
     """
     low, high = EXPONENT - EXPONENT_TOLERANCE, EXPONENT + EXPONENT_TOLERANCE
     parts = []
-    for where, of in _grouped(ensemble):
+    for where, group in _grouped(ensemble):
         for birth, event in ((1, "births"), (0, "deaths")):
             for side in ("real", "pair"):
-                found = _over(of, lambda s, b=birth, k=side: _exponent(s, b, k))
+                found = _over(group, lambda s, b=birth, k=side: _exponent(s, b, k))
                 if np.isfinite(found.error):
                     parts.append(Part(f"{event}, {side}, {where}", found, low, high))
     counted = sum(len(sample.exceptional_points) for sample in pair_samples(ensemble))
-    return Outcome(parts, f"Fitted at {counted} exceptional points.")
+    return Outcome(parts, f"The fits are those at {counted} exceptional points.")
 
 
 def _exponent(sample: PairSample, birth: int, side: str) -> float:
@@ -84,20 +86,21 @@ def _exponent(sample: PairSample, birth: int, side: str) -> float:
 
 @claim("C3", unit="1")
 def parallel_eigenvectors(ensemble) -> Outcome:
-    """The scalar product of two real eigenvectors goes to 1 at γ_c (Figs. 2 and 3).
+    """The scalar product of two real eigenvectors tends to 1 at γ_c (Figs. 2 and 3).
 
-    Taken to γ_c along a straight line through the two states with real modes nearest to it, mean
-    over the coalescences; 1 minus the product is proportional to |γ − γ_c|.
+    The product is extrapolated to γ_c along a straight line through the two nearest states with
+    real modes, because 1 minus the product is proportional to |γ − γ_c|, and averaged over the
+    births and deaths of a sample.
 
-    Criterion: above 0.999.
+    Criterion: The extrapolated product is above 0.999.
     """
     parts, notes = [], []
-    for where, of in _grouped(ensemble):
-        found = _over(of, _at_the_point)
+    for where, group in _grouped(ensemble):
+        found = _over(group, _at_the_point)
         if np.isfinite(found.error):
             parts.append(Part(where, found, MIN_PRODUCT))
-            far = _over(of, lambda s: float(_real(s).groupby("point")["product"].last().mean()))
-            notes.append(f"At the farthest state, {where}, it is {far}.")
+            far = _over(group, lambda s: float(_real(s).groupby("point")["product"].last().mean()))
+            notes.append(f"In the farthest state, {where}, the product is {far}.")
     return Outcome(parts, " ".join(notes))
 
 
@@ -108,18 +111,18 @@ def _real(sample: PairSample) -> pd.DataFrame:
 
 
 def _at_the_point(sample: PairSample) -> float:
-    """The product at γ_c, mean over the coalescences with at least two states."""
-    pairs = [of.iloc[:2] for _, of in _real(sample).groupby("point") if len(of) > 1]
-    return float(np.mean([_extrapolated(*of["size"], *of["product"]) for of in pairs]))
+    """The product at γ_c, averaged over the exceptional points with at least two states."""
+    pairs = [states.iloc[:2] for _, states in _real(sample).groupby("point") if len(states) > 1]
+    return float(np.mean([_extrapolated(*pair["size"], *pair["product"]) for pair in pairs]))
 
 
 def _extrapolated(near: float, far: float, product: float, other: float) -> float:
-    """A straight line through two states, at distance 0."""
+    """The value at distance 0 of a straight line through two states."""
     return (far * product - near * other) / (far - near)
 
 
 def _grouped(ensemble) -> Iterator[tuple[str, list[PairSample]]]:
-    """The name of every point, and its samples with coalescences, where there are enough.
+    """The name of every point, and its samples with exceptional points, if there are enough.
 
     Raises:
         NotTested: the ensemble lacks them.
@@ -130,11 +133,11 @@ def _grouped(ensemble) -> Iterator[tuple[str, list[PairSample]]]:
     for sample in pair_samples(ensemble):
         place = sample.coordinates
         groups.setdefault((place["n"], place["phi"], place["kt"]), []).append(sample)
-    for (n, phi, kt), of in groups.items():
-        if len(of) >= MIN_SAMPLES:
-            yield f"N = {n}, {label(phi, kt)}", of
+    for (n, phi, kt), group in groups.items():
+        if len(group) >= MIN_SAMPLES:
+            yield f"N = {n}, {label(phi, kt)}", group
 
 
-def _over(of: list[PairSample], number: Callable[[PairSample], float]) -> Estimate:
-    """Mean over the samples of a number; NaN leaves a sample out."""
-    return mean(np.array([number(sample) for sample in of]))
+def _over(group: list[PairSample], number: Callable[[PairSample], float]) -> Estimate:
+    """Mean over the samples of a number of each; NaN leaves a sample out."""
+    return mean(np.array([number(sample) for sample in group]))

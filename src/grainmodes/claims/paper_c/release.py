@@ -1,11 +1,11 @@
-"""Claims of paper C on unstable states that are let go: C4 to C7.
+"""Claims of paper C on released unstable states: C4 to C7.
 
     symbol       name                                                       paper C
     ω_i, ω_r     release_rate_linear, release_frequency_linear              Eq. 12
-    M, A         release_displacement_*, release_rotation_*: fitted laws    Eq. 30, Fig. 6
-    η_0          release_damping, a run each; the first is 0                Sec. VII
+    M, A         release_displacement_*, release_rotation_*: fits           Eq. 30, Fig. 6
+    η_0          release_damping, one run for each; the first is 0          Sec. VII
 
-Numbers of one run first, their mean and its error over the samples then.
+Numbers are taken from each run first; their mean and its error are those over the samples.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ from grainmodes.claims.samples import Samples, best_sampled, label
 from grainmodes.statistics.estimates import mean
 
 TOLERANCE = 0.01
-"""Relative difference of a fitted rate or frequency to linear theory."""
+"""Relative difference to linear theory at which a fitted rate or frequency is equal to it."""
 
 MIN_AXIS_RATIO = 0.1
-"""Ratio of the axes of a grain's turn from which it is no line."""
+"""Ratio of the axes of a grain's ellipse above which it is not a straight line."""
 
 LOG_CONTACT_CHANGE = -8.0
 """log10 of M, in d², above which contacts may change."""
 
 LOG_CHANGE_RANGE = (-8.0, -6.0)
-"""log10 of "M ~ 1e-7"."""
+"""Range of log10 M that counts as "M ~ 1e-7"."""
 
 MAX_DELAY = 2.0
-"""Time, in 1/ω_i, between the first change of contacts and the end of the growth."""
+"""Longest time, in 1/ω_i, between the first change of contacts and the end of the growth."""
 
 
 def released(ensemble, *names: str) -> Iterator[tuple[str, dict[str, np.ndarray]]]:
@@ -57,75 +57,88 @@ def _values(samples: Samples, point: tuple[float, float], names) -> dict[str, np
 def spirals(ensemble) -> Outcome:
     """The grains of a growing complex pair move on spirals along its eigenvector (Fig. 5).
 
-    A film of the growth is fitted with e^(ω_i t) Re(z e^(-iω_r t)) for every coordinate.
+    The growth of every coordinate is fitted by e^(ω_i t) Re(z e^(-iω_r t)). The measured numbers
+    are the part of the motion that the fit leaves, the overlap of z with the eigenvector, and the
+    median ratio of the axes of the ellipse of a grain.
 
-    Criterion: it leaves less than 5 % of the motion; z overlaps with the eigenvector to 1 %; the
-    axes of a grain's turn have a ratio above 0.1 in the median.
+    Criterion: The remaining part is below 5 %, the overlap above 0.99, and the ratio above 0.1.
     """
     parts = []
-    for where, of in released(ensemble, *(f"spiral_{x}" for x in ("misfit", "overlap", "opening"))):
-        parts.append(Part(f"left over, {where}", mean(of["spiral_misfit"]), high=0.05))
-        parts.append(Part(f"overlap, {where}", mean(of["spiral_overlap"]), low=1.0 - TOLERANCE))
-        parts.append(Part(f"opening, {where}", mean(of["spiral_opening"]), low=MIN_AXIS_RATIO))
+    names = ("spiral_misfit", "spiral_overlap", "spiral_opening")
+    for where, values in released(ensemble, *names):
+        parts.append(Part(f"remaining motion, {where}", mean(values["spiral_misfit"]), high=0.05))
+        parts.append(Part(f"overlap, {where}", mean(values["spiral_overlap"]), low=1.0 - TOLERANCE))
+        parts.append(
+            Part(f"ratio of axes, {where}", mean(values["spiral_opening"]), low=MIN_AXIS_RATIO)
+        )
     return Outcome(parts)
 
 
 @claim("C5", unit="1")
 def growth(ensemble) -> Outcome:
-    """M(t) and A(t) grow as e^(2ω_i t), turning with ω_r, up to M ~ 1e-7 (Figs. 6, 7).
+    """M(t) and A(t) grow as e^(2ω_i t) and oscillate with ω_r up to M ~ 1e-7 (Figs. 6, 7).
 
-    Of the run without damping: fitted rate and frequency of M and A over ω_i and ω_r, minus 1;
-    log10 of M when contacts change first; the time from there to the end of the growth, in 1/ω_i.
+    The numbers are taken from the run without damping: the relative differences of the fitted rates
+    and frequencies of M and A to ω_i and ω_r; log10 of M at the first change of contacts; and the
+    time from this change to the end of the growth, in 1/ω_i.
 
-    Criterion: rates and frequencies within ±1 %; log10 M within -8 ... -6; the time within ±2.
+    Criterion: The relative differences are within ±1 %, log10 M lies within -8 ... -6, and the time
+    is within ±2.
     """
-    fits = [f"{of}_{name}" for of in SQUARES for name in ("rate", "frequency")]
-    depths = [f"{of}_depth" for of in SQUARES]
+    fits = [f"{square}_{name}" for square in SQUARES for name in ("rate", "frequency")]
+    depths = [f"{square}_depth" for square in SQUARES]
     moments = ("change_square", "change_time", "end_time")
     parts, notes = [], []
-    for where, of in released(ensemble, "frequency_linear", *fits, *depths, *moments):
+    for where, values in released(ensemble, "frequency_linear", *fits, *depths, *moments):
         for name in fits:
-            linear = of[f"{name.rpartition('_')[2]}_linear"]
-            off = mean(of[name][:, 0] / linear - 1.0)
-            parts.append(Part(f"{name.replace('_', ', ')}, {where}", off, -TOLERANCE, TOLERANCE))
-        size = mean(np.log10(of["change_square"][:, 0]))
-        parts.append(Part(f"first change, {where}", size, *LOG_CHANGE_RANGE))
-        later = (of["end_time"] - of["change_time"])[:, 0] * of["rate_linear"]
-        parts.append(Part(f"end after it, {where}", mean(later), -MAX_DELAY, MAX_DELAY))
-        swing = " and ".join(f"{mean(of[name][:, 0])}" for name in depths)
+            linear = values[f"{name.rpartition('_')[2]}_linear"]
+            difference = mean(values[name][:, 0] / linear - 1.0)
+            part = f"{name.replace('_', ', ')}, {where}"
+            parts.append(Part(part, difference, -TOLERANCE, TOLERANCE))
+        square = mean(np.log10(values["change_square"][:, 0]))
+        parts.append(Part(f"first change, {where}", square, *LOG_CHANGE_RANGE))
+        later = (values["end_time"] - values["change_time"])[:, 0] * values["rate_linear"]
+        parts.append(
+            Part(f"time to the end of the growth, {where}", mean(later), -MAX_DELAY, MAX_DELAY)
+        )
+        depth = " and ".join(f"{mean(values[name][:, 0])}" for name in depths)
         notes.append(
-            f"At {where} M and A swing by {swing} of their means; e^(2ω_i t) sin²(ω_r t) would "
-            "swing by 1: only the first turns after a kick do."
+            f"At {where} M and A oscillate by {depth} of their means. For e^(2ω_i t) sin²(ω_r t) "
+            "this would be 1, as it is only in the first periods after a kick."
         )
     return Outcome(parts, " ".join(notes))
 
 
 SQUARES = ("displacement", "rotation")
-"""The laws of M and of A."""
+"""The prefixes of the fits of M and of A."""
 
 
 @claim("C6", unit="1")
 def second_instability(ensemble) -> Outcome:
-    """After a plateau a second instability raises P and lowers σ_xy and the contacts (Figs. 7, 9).
+    """After a plateau a second instability raises P and lowers σ_xy and Z (Figs. 7, 9).
 
-    It begins where M exceeds the square of the mean overlap. Of the runs without damping that come
-    to it: the time from the end of the growth, in 1/ω_i; log10 of P, the ratio of σ_xy and the
-    difference of the contacts of a grain between the last tenth of the run and the start.
+    The second instability begins where M exceeds the square of the mean overlap. The numbers are
+    taken from the runs without damping that reach it: the length of the plateau, which is the time
+    from the end of the growth in 1/ω_i; and log10 of the ratio of P, the ratio of |σ_xy| and the
+    difference of Z, the contacts per grain, between the last tenth of the run and its start.
 
-    Criterion: the time above 1; log10 P rises; σ_xy falls below 0.7 of itself; contacts fall.
+    Criterion: The plateau is longer than 1, log10 of the ratio of P is above 0, the ratio of |σ_xy|
+    is below 0.7, and the difference of Z is below 0.
     """
     quantities = ("pressure", "stress_xy", "contact_number")
     names = [f"{side}_{name}" for side in ("start", "after") for name in quantities]
     parts, notes = [], []
-    for where, of in released(ensemble, "end_time", "second_time", *names):
-        came = np.isfinite(of["second_time"][:, 0])
-        known = np.isfinite(of["rate_linear"])
-        notes.append(f"{came.sum()} of {known.sum()} runs at {where} come to it.")
-        if not came.any():
+    for where, values in released(ensemble, "end_time", "second_time", *names):
+        reached = np.isfinite(values["second_time"][:, 0])
+        known = np.isfinite(values["rate_linear"])
+        notes.append(f"{reached.sum()} of {known.sum()} runs at {where} reach it.")
+        if not reached.any():
             continue
-        after = {name: of[f"after_{name}"][came, 0] for name in quantities}
-        start = {name: of[f"start_{name}"][came] for name in quantities}
-        plateau = ((of["second_time"] - of["end_time"])[:, 0] * of["rate_linear"])[came]
+        after = {name: values[f"after_{name}"][reached, 0] for name in quantities}
+        start = {name: values[f"start_{name}"][reached] for name in quantities}
+        plateau = ((values["second_time"] - values["end_time"])[:, 0] * values["rate_linear"])[
+            reached
+        ]
         pressure = np.log10(after["pressure"] / start["pressure"])
         stress = np.abs(after["stress_xy"] / start["stress_xy"])
         contacts = after["contact_number"] - start["contact_number"]
@@ -133,39 +146,40 @@ def second_instability(ensemble) -> Outcome:
             Part(f"plateau, {where}", mean(plateau), low=1.0),
             Part(f"P, {where}", mean(pressure), low=0.0),
             Part(f"σ_xy, {where}", mean(stress), high=0.7),
-            Part(f"contacts, {where}", mean(contacts), high=0.0),
+            Part(f"Z, {where}", mean(contacts), high=0.0),
         ]
     if not parts:
-        raise NotTested("runs that come to a second instability")
+        raise NotTested("runs that reach a second instability")
     return Outcome(parts, " ".join(notes))
 
 
 @claim("C7", unit="1")
 def damping(ensemble) -> Outcome:
-    """A damping η_0 above ω_i suppresses the growth, a smaller one does not (Fig. 11).
+    """A damping η_0 above ω_i suppresses the growth, and a smaller one does not (Fig. 11).
 
-    log10 of the largest M of every run, in d². Linear theory lets the pair grow at ω_i - η_0/2, so
-    that runs with ω_i ≤ η_0 ≤ 2ω_i stand between and are not judged. Noted is which runs come to a
-    second instability: those that grow may yet come to rest nearby.
+    This is log10 of the largest M of every run, in d². In linear theory the pair grows at the rate
+    ω_i - η_0/2, so that runs with ω_i ≤ η_0 ≤ 2ω_i are between the two cases and are not judged.
+    The note lists the runs that reach a second instability, because a run that grows may still come
+    to rest near its start.
 
-    Criterion: above -8 for η_0 < ω_i, below -8 for η_0 > 2ω_i.
+    Criterion: log10 M is above -8 for η_0 < ω_i, and below -8 for η_0 > 2ω_i.
     """
     parts, notes = [], []
     names = ("damping", "largest_square", "displacement_rate", "second_time")
-    for where, of in released(ensemble, *names):
-        ratio = np.nanmean(of["damping"] / of["rate_linear"][:, None], axis=0)
-        known = np.isfinite(of["rate_linear"]).sum()
-        came = np.isfinite(of["second_time"]).sum(axis=0)
+    for where, values in released(ensemble, *names):
+        ratio = np.nanmean(values["damping"] / values["rate_linear"][:, None], axis=0)
+        known = np.isfinite(values["rate_linear"]).sum()
+        reached = np.isfinite(values["second_time"]).sum(axis=0)
         for run, times in enumerate(ratio):
             name = f"η_0 = {times:.3g} ω_i, {where}"
             if times < 2.0 + TOLERANCE:
-                notes.append(f"At {name} {came[run]} of {known} come to a second instability.")
-            largest = mean(np.log10(of["largest_square"][:, run]))
+                notes.append(f"At {name} {reached[run]} of {known} reach a second instability.")
+            largest = mean(np.log10(values["largest_square"][:, run]))
             if times < 1.0 - TOLERANCE:
                 parts.append(Part(name, largest, low=LOG_CONTACT_CHANGE))
             elif times > 2.0 + TOLERANCE:
                 parts.append(Part(name, largest, high=LOG_CONTACT_CHANGE))
             else:
-                rate = mean(of["displacement_rate"][:, run] / of["rate_linear"])
-                notes.append(f"At {name} M grows to log10 M = {largest}, at {rate} ω_i.")
+                rate = mean(values["displacement_rate"][:, run] / values["rate_linear"])
+                notes.append(f"At {name} M grows to log10 M = {largest}, at the rate {rate} ω_i.")
     return Outcome(parts, " ".join(notes))
