@@ -123,5 +123,5 @@ def after_dynamics(packing: Packing, force: type, steps: int) -> Packing:
     given = ROUGH, Dashpot(VISCOSITY), TIME_STEP, SKIN, Stop(0.0, steps)
     spring = np.zeros(len(pairs.left))
     pairs, spring, *_ = integrate(grains, packing.box_length, packing.strain, pairs, spring, *given)
-    history = History.of(pairs.right.astype(np.int32), pairs.left.astype(np.int32), spring)
+    history = History.from_pairs(pairs.right.astype(np.int32), pairs.left.astype(np.int32), spring)
     return replace(packing, fraction=np.stack([x, y]), history=history)

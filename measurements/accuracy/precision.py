@@ -29,7 +29,7 @@ from typing import NamedTuple
 import numpy as np
 
 from grainmodes.kernels.laws import Frictionless, Interaction
-from grainmodes.packing.forces import largest, mean_contact_force, net_force, stress
+from grainmodes.packing.forces import max_force_and_torque, mean_contact_force, net_force, stress
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import forward_rigidity
@@ -101,7 +101,7 @@ def _errors(seconds: float, forces: float, floor: float, ratio: float, n: int) -
 
 def residual(packing: Packing, interaction: Interaction) -> float:
     """max|F̃| in double precision."""
-    return max(largest(net_force(packing, interaction)))
+    return max(max_force_and_torque(net_force(packing, interaction)))
 
 
 SINGLE, DOUBLE = Precision(np.float32, np.float32), Precision(np.float64, np.float64)

@@ -15,7 +15,7 @@ import pytest
 from example_packings import MINIMAL, elastic, reference
 from grainmodes.dataset.files import Block, BlockError, read_block
 from grainmodes.kernels.laws import Hertz
-from grainmodes.packing.forces import largest, net_force
+from grainmodes.packing.forces import max_force_and_torque, net_force
 from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw, Rattlers
@@ -161,7 +161,7 @@ def test_a_packing_without_a_number_looks_unjammed(name):
     packing = replace(reference(MINIMAL[0])[1], **{name: np.nan})
     contacts = packing.contacts
     assert len(contacts.i) == 0
-    assert largest(net_force(packing, elastic("hertz", 1.0))) == (0.0, 0.0)
+    assert max_force_and_torque(net_force(packing, elastic("hertz", 1.0))) == (0.0, 0.0)
     with pytest.raises(ValueError, match=f"{name}: expected a finite number, got nan"):
         packing.checked()
 

@@ -9,7 +9,7 @@ import pytest
 
 from example_packings import ELASTIC, reference
 from grainmodes.kernels.laws import Hertz, Interaction
-from grainmodes.packing.forces import largest, mean_contact_force, net_force, stress
+from grainmodes.packing.forces import max_force_and_torque, mean_contact_force, net_force, stress
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw, Rattlers
@@ -27,7 +27,7 @@ BUDGET = 200_000
 
 
 def jammed(packing: Packing) -> bool:
-    return is_jammed(packing, FREE, largest(net_force(packing, FREE))[0])
+    return is_jammed(packing, FREE, max_force_and_torque(net_force(packing, FREE))[0])
 
 
 def load(packing: Packing) -> float:

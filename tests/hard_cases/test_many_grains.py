@@ -9,7 +9,7 @@ from grainmodes.kernels.damping import Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Hertz, Interaction
 from grainmodes.kernels.neighbours import FRACTION_UNIT
-from grainmodes.packing.forces import largest, net_force
+from grainmodes.packing.forces import max_force_and_torque, net_force
 from grainmodes.packing.state import Packing, PackingError
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.relaxation.dynamics import move
@@ -21,7 +21,7 @@ INTERACTION = Interaction.from_law(ContactLaw(kt=1e-4))
 
 
 def rest(packing: Packing) -> float:
-    return largest(net_force(packing, elastic("hertz", 0.0)))[0]
+    return max_force_and_torque(net_force(packing, elastic("hertz", 0.0)))[0]
 
 
 def at_rest() -> Packing:

@@ -73,7 +73,7 @@ class History:
         return pair_key(self.i, self.j)
 
     @classmethod
-    def of(cls, i: np.ndarray, j: np.ndarray, spring_state: np.ndarray) -> History:
+    def from_pairs(cls, i: np.ndarray, j: np.ndarray, spring_state: np.ndarray) -> History:
         """The history of pairs in any order; s does not change sign when i and j are swapped."""
         high, low = np.maximum(i, j), np.minimum(i, j)
         order = np.lexsort((low, high))

@@ -53,15 +53,15 @@ def sliding(contacts: Contacts, interaction: Interaction) -> np.ndarray:
 def net_force(packing: Packing, interaction: Interaction) -> np.ndarray:
     """F̃ on every grain: (N, 2) frictionless, else (N, 3) = (F_x, F_y, 2 T/d), in k_N d^(3/2)."""
     contacts = packing.contacts
-    return net(contacts, forces_on_i(contacts, interaction), packing.n)
+    return sum_over_contacts(contacts, forces_on_i(contacts, interaction), packing.n)
 
 
-def net(contacts: Contacts, forces: np.ndarray, n: int) -> np.ndarray:
+def sum_over_contacts(contacts: Contacts, forces: np.ndarray, n: int) -> np.ndarray:
     """What forces (C, k) on the grains i of all contacts do to every grain, (N, k)."""
     return sum_on_grains(forces, SIGNS[: forces.shape[1]], contacts.i, contacts.j, n)
 
 
-def largest(force: np.ndarray) -> tuple[float, float]:
+def max_force_and_torque(force: np.ndarray) -> tuple[float, float]:
     """(max |F|, max scaled |torque|) over grains and components; torque is 0 without friction."""
     if len(force) == 0:
         return 0.0, 0.0

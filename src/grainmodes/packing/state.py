@@ -71,7 +71,7 @@ class Packing:
             float(box_length),
             float(strain),
             None,
-            history and History.of(history.i, history.j, history.spring_state),
+            history and History.from_pairs(history.i, history.j, history.spring_state),
         )
 
     def checked(self) -> Packing:

@@ -23,7 +23,7 @@ from grainmodes.kernels.dynamics import Grains, Stop, integrate, transfer_spring
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.neighbours import Neighbours, find_neighbours
 from grainmodes.packing.contacts import History
-from grainmodes.packing.forces import largest, net_force
+from grainmodes.packing.forces import max_force_and_torque, net_force
 from grainmodes.packing.state import Packing
 from grainmodes.relaxation.result import RelaxationResult
 
@@ -121,7 +121,7 @@ def relax_damped(
         now = move(now.packing, now.velocity, interaction, damping, time_step, stop)
         steps += now.steps
         force = net_force(now.packing, interaction)
-        max_force, max_torque = largest(force)
+        max_force, max_torque = max_force_and_torque(force)
         converged = max(max_force, max_torque) < tolerance
         if converged or steps >= max_steps:
             return RelaxationResult(now.packing, converged, steps, max_force, max_torque)

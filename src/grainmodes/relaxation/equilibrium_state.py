@@ -30,7 +30,12 @@ from numpy.typing import NDArray
 
 from grainmodes.kernels.laws import Interaction
 from grainmodes.linalg.pinned_factor import PinnedFactor
-from grainmodes.packing.forces import is_frictionless, largest, net_force, tangential_forces
+from grainmodes.packing.forces import (
+    is_frictionless,
+    max_force_and_torque,
+    net_force,
+    tangential_forces,
+)
 from grainmodes.packing.jacobian import assemble, stiffness_of
 from grainmodes.packing.state import Packing, rattlers
 from grainmodes.relaxation.low_rank_update import BaseFactor, LowRankUpdate
@@ -151,7 +156,7 @@ class EquilibriumState:
     @cached_property
     def residual(self) -> float:
         """max|F̃| over the forces and scaled torques of the backbone, in k_N d^(3/2)."""
-        return max(largest(self.force))
+        return max(max_force_and_torque(self.force))
 
     @cached_property
     def stiffness(self) -> NDArray[np.float64]:

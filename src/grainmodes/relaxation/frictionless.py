@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from grainmodes.kernels.fire import FireSettings, fire
 from grainmodes.kernels.laws import Frictionless, Interaction, NormalLaw
-from grainmodes.packing.forces import largest, mean_contact_force, net_force
+from grainmodes.packing.forces import max_force_and_torque, mean_contact_force, net_force
 from grainmodes.packing.state import Packing, rattlers
 from grainmodes.relaxation.newton import newton
 from grainmodes.relaxation.rattlers import detach_rattlers
@@ -153,7 +153,7 @@ def _polished(packing: Packing, normal: NormalLaw, tolerance: float) -> Relaxati
     fraction[:, ~is_rattler] = solved.packing.fraction
     settled = detach_rattlers(replace(packing, fraction=fraction), normal, is_rattler)
     force = net_force(settled, interaction)
-    max_force, _ = largest(force)
+    max_force, _ = max_force_and_torque(force)
     if not max_force < tolerance:
         return None
     return RelaxationResult(settled, True, solved.iterations, max_force)

@@ -32,7 +32,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.springs import advance_springs, clip_springs
 from grainmodes.linalg.pinned_factor import FloppyError, PinnedFactor
 from grainmodes.packing.contacts import History
-from grainmodes.packing.forces import is_frictionless, largest, net_force
+from grainmodes.packing.forces import is_frictionless, max_force_and_torque, net_force
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing
 from grainmodes.relaxation.backtracking import backtrack
@@ -65,9 +65,9 @@ def newton(
         if after is None:
             break
         now = after
-        if max(largest(now.force)) < tolerance:
+        if max(max_force_and_torque(now.force)) < tolerance:
             break
-    max_force, max_torque = largest(now.force)
+    max_force, max_torque = max_force_and_torque(now.force)
     converged = max(max_force, max_torque) < tolerance
     return RelaxationResult(now.packing, converged, iterations, max_force, max_torque)
 
@@ -80,7 +80,7 @@ def _newton_step(now: _Iterate, interaction: Interaction) -> _Iterate | None:
         u = PinnedFactor(matrix, symmetric=packing.contacts.spring_state is None).solve(force)
     except FloppyError:
         return None
-    u, residual = u.reshape(packing.n, -1), max(largest(force))
+    u, residual = u.reshape(packing.n, -1), max(max_force_and_torque(force))
 
     def after(fraction: float) -> _Iterate:
         displaced = displace_with_springs(packing, interaction, fraction * u)
@@ -88,7 +88,7 @@ def _newton_step(now: _Iterate, interaction: Interaction) -> _Iterate | None:
         return _Iterate(slipped, net_force(slipped, interaction))
 
     def improves(trial: _Iterate) -> bool:
-        return max(largest(trial.force)) < residual or residual == 0.0
+        return max(max_force_and_torque(trial.force)) < residual or residual == 0.0
 
     return backtrack(after, improves)
 

@@ -28,7 +28,7 @@ import numpy as np
 from grainmodes.kernels.laws import Interaction
 from grainmodes.linalg.pinned_factor import PinnedFactor
 from grainmodes.packing.contacts import Contacts
-from grainmodes.packing.forces import SIGNS, forces_on_i, is_frictionless, net
+from grainmodes.packing.forces import SIGNS, forces_on_i, is_frictionless, sum_over_contacts
 from grainmodes.packing.jacobian import assemble, stiffness_of
 from grainmodes.packing.state import Packing, backbone
 
@@ -97,7 +97,7 @@ class AffineStep:
         self.stiffness = stiffness_of(contacts, interaction)
         self._affine = affine_displacement(contacts, self.stiffness.shape[1], loaded)
         self._rate = np.einsum("cab,cb->ca", self.stiffness, self._affine)
-        self.force = net(contacts, self._rate, packing.n)
+        self.force = sum_over_contacts(contacts, self._rate, packing.n)
 
     def moduli(self, nonaffine: np.ndarray) -> Moduli:
         """Both parts of dσ/dγ for a non-affine field u that solves J u = `force`, any shape."""
@@ -105,7 +105,7 @@ class AffineStep:
         u = nonaffine.reshape(self._packing.n, -1).copy()
         u[:, :2] -= u[:, :2].mean(axis=0)
         branch = contacts.normal * contacts.distance[:, None]
-        response = np.einsum("cab,cb->ca", self.stiffness, relative(contacts, u))
+        response = np.einsum("cab,cb->ca", self.stiffness, relative_displacement(contacts, u))
         carried = forces_on_i(contacts, self._interaction)[:, :2].T @ self._affine[:, :2]
         return Moduli(
             -(self._rate[:, :2].T @ branch + carried) / area,
@@ -123,6 +123,6 @@ def affine_displacement(contacts: Contacts, k: int, loaded: bool) -> np.ndarray:
     return affine
 
 
-def relative(contacts: Contacts, u: np.ndarray) -> np.ndarray:
+def relative_displacement(contacts: Contacts, u: np.ndarray) -> np.ndarray:
     """δu = (u_i − u_j, ℓ_i + ℓ_j) of every contact from a field u (N, k)."""
     return u[contacts.i] + SIGNS[: u.shape[1]] * u[contacts.j]

@@ -27,16 +27,18 @@ REAL_TOLERANCE = 1e-9
 """|Im λ'| up to which an eigenvalue counts as real, k_N d^(1/2)/m."""
 
 
-def complex_pairs(packing: Packing, interaction: Interaction) -> int:
+def count_complex_pairs(packing: Packing, interaction: Interaction) -> int:
     """Number of complex-conjugate pairs of eigenvalues of M⁻¹J, dense; with friction only.
 
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
-    return int(np.count_nonzero(eigenvalues(packing, interaction).imag > REAL_TOLERANCE))
+    return int(
+        np.count_nonzero(mass_weighted_eigenvalues(packing, interaction).imag > REAL_TOLERANCE)
+    )
 
 
-def eigenvalues(packing: Packing, interaction: Interaction) -> np.ndarray:
+def mass_weighted_eigenvalues(packing: Packing, interaction: Interaction) -> np.ndarray:
     """All 3N eigenvalues of M⁻¹J, complex, in no order; dense, for states in balance or not.
 
     Raises:
@@ -53,7 +55,7 @@ def asymmetry(matrix: sparse.csc_array) -> float:
     return float(abs(matrix - matrix.T).max() / largest) if largest else 0.0
 
 
-SMALL = 60
+MAX_DENSE_SIZE = 60
 """Degrees of freedom up to which the lowest eigenvalue is found densely."""
 
 
@@ -65,7 +67,7 @@ def lowest_eigenvalue(matrix: sparse.csc_array, factor: PinnedFactor, k: int) ->
         factor: its factors, by which J⁻¹ on forces without a sum is iterated.
     """
     size = matrix.shape[0]
-    if size <= SMALL:
+    if size <= MAX_DENSE_SIZE:
         values = scipy.linalg.eigvals(matrix.toarray())
         values = values[np.argsort(np.abs(values))][2:]
         return _signed(values[0]) if len(values) else np.nan
@@ -87,7 +89,7 @@ def lowest_mode(matrix: sparse.csc_array, factor: PinnedFactor, k: int) -> Lowes
     A complex pair has no real eigenvector; its residual is then of the size of λ.
     """
     size = matrix.shape[0]
-    if size <= SMALL:
+    if size <= MAX_DENSE_SIZE:
         values, vectors = scipy.linalg.eig(matrix.toarray())
         place = np.argsort(np.abs(values))[2]
         value, vector = values[place], vectors[:, place]

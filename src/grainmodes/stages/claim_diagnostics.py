@@ -34,7 +34,7 @@ from grainmodes.protocols.compression.frictional_compression import frictional_c
 from grainmodes.protocols.shear.step_strain import forward_rigidity
 from grainmodes.relaxation.accuracy import step_orders
 from grainmodes.response.mode_sum import ModeRigidity
-from grainmodes.response.stability import complex_pairs
+from grainmodes.response.stability import count_complex_pairs
 from grainmodes.spectrum import packing_spectrum
 from grainmodes.stages.rows import SAMPLE_ERRORS, response_block
 from grainmodes.stages.samples import jammed_packing, seed_of
@@ -157,4 +157,4 @@ def compressed_pairs(
 ) -> tuple[int, bool]:
     """Complex pairs of the packing compressed anew with friction, and whether it is jammed."""
     found = frictional_compression(packing, interaction, tolerance)
-    return (complex_pairs(found.packing, interaction) if found.jammed else 0), found.jammed
+    return (count_complex_pairs(found.packing, interaction) if found.jammed else 0), found.jammed

@@ -9,7 +9,7 @@ import numpy as np
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Frictionless, Interaction, NormalLaw
 from grainmodes.packing.contacts import History
-from grainmodes.packing.forces import largest, mean_contact_force, net_force, stress
+from grainmodes.packing.forces import max_force_and_torque, mean_contact_force, net_force, stress
 from grainmodes.packing.state import Packing, backbone
 
 MIN_LOAD_RATIO = 1e3
@@ -20,7 +20,7 @@ def packing_row(packing: Packing, normal: NormalLaw) -> dict[str, object]:
     """The row of a packing at rest, without friction."""
     interaction = Interaction(normal, Frictionless())
     contacts, rigid = packing.contacts, backbone(packing, threshold=2)
-    force, _ = largest(net_force(packing, interaction))
+    force, _ = max_force_and_torque(net_force(packing, interaction))
     return grain_columns(packing) | {
         "position": packing.position,
         "contact_i": contacts.i,
@@ -87,4 +87,4 @@ def history_in_row(row: Mapping[str, np.ndarray], prefix: str = "") -> History:
     """The springs in a row, whose columns are filled up with contacts of negative numbers."""
     present = row[f"{prefix}contact_i"] >= 0
     names = ("contact_i", "contact_j", "spring_state")
-    return History.of(*(row[f"{prefix}{name}"][present] for name in names))
+    return History.from_pairs(*(row[f"{prefix}{name}"][present] for name in names))

@@ -6,7 +6,7 @@ from dataclasses import asdict
 
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing.forces import largest, net_force
+from grainmodes.packing.forces import max_force_and_torque, net_force
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.response.moduli import Moduli, rigidity
 from grainmodes.stages.rows import response_block
@@ -19,7 +19,7 @@ def rigidity_block(packings: Block, law: ContactLaw, rattlers: Rattlers) -> Bloc
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, interaction)
-        force = largest(net_force(packing, interaction))
+        force = max_force_and_torque(net_force(packing, interaction))
         row: dict[str, object] = {"jammed": jammed, "converged": True}
         row |= {"max_force": force[0], "max_torque": force[1]}
         if not jammed:

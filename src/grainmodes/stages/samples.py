@@ -6,7 +6,7 @@ from dataclasses import asdict
 
 from grainmodes.dataset.files import Block, BlockError
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing.forces import largest, mean_contact_force, net_force
+from grainmodes.packing.forces import max_force_and_torque, mean_contact_force, net_force
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.compression import Compression
 from grainmodes.stages.packing_rows import is_jammed, packing_in_row
@@ -26,7 +26,7 @@ def jammed_packing(block: Block, number: int, interaction: Interaction) -> tuple
     if not block.variables["converged"][number]:
         raise ArithmeticError("the packing did not reach its force balance")
     packing = packing_in_row(block, number)
-    force, _ = largest(net_force(packing, interaction))
+    force, _ = max_force_and_torque(net_force(packing, interaction))
     mean = mean_contact_force(packing, interaction)
     limit = max(MAX_FORCE_RATIO * mean, force_tolerance(block))
     if not force <= limit:

@@ -16,7 +16,7 @@ from grainmodes.protocols.shear.first_event import Bracket
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.protocols.shear.sheared_state import CurvePoint
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
-from grainmodes.response.stability import asymmetry, complex_pairs
+from grainmodes.response.stability import asymmetry, count_complex_pairs
 
 MAX_PAIR_DOF = 1200
 """Degrees of freedom up to which complex pairs are counted, which then takes a second an event."""
@@ -118,7 +118,7 @@ def _count_pairs(equilibrium: EquilibriumState) -> float:
         return 0.0
     if equilibrium.matrix.shape[0] > MAX_PAIR_DOF:
         return np.nan
-    return float(complex_pairs(equilibrium.backbone, equilibrium.interaction))
+    return float(count_complex_pairs(equilibrium.backbone, equilibrium.interaction))
 
 
 def _states(

@@ -42,7 +42,7 @@ from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.exceptional_points import fit_exponent
 from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
-from grainmodes.response.stability import complex_pairs
+from grainmodes.response.stability import count_complex_pairs
 
 
 def problem(matrix: sparse.csr_array, held: np.ndarray | None = None) -> DynamicalMatrix:
@@ -85,7 +85,7 @@ def two(strain: float) -> sparse.csr_array:
 
 def test_the_pairs_of_a_state_are_eigenpairs(sheared, matrix):
     found = dense_pairs(matrix)
-    assert len(found.value) == complex_pairs(sheared.backbone, sheared.interaction) > 0
+    assert len(found.value) == count_complex_pairs(sheared.backbone, sheared.interaction) > 0
     assert np.all(found.value.imag > 0.0)
     assert_allclose(matrix @ found.right, found.right * found.value, atol=1e-13)
     assert_allclose(matrix.T @ found.left, found.left * found.value.conj(), atol=1e-12)

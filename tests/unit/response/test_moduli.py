@@ -20,13 +20,13 @@ from example_packings import (
 )
 from grainmodes.kernels.laws import Interaction
 from grainmodes.linalg.pinned_factor import FloppyError, PinnedFactor
-from grainmodes.packing.forces import net
+from grainmodes.packing.forces import sum_over_contacts
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.response.mode_sum import ModeRigidity, elastic_modes, mode_sum
-from grainmodes.response.moduli import affine_displacement, relative, rigidity
+from grainmodes.response.moduli import affine_displacement, relative_displacement, rigidity
 from grainmodes.spectrum import packing_spectrum
 
 PARTS = ("g_affine", "g_nonaffine")
@@ -188,8 +188,8 @@ def test_relative_and_net_are_each_others_transpose():
     contacts = reference(MINIMAL[0])[1].contacts
     draws = np.random.default_rng(0)
     u, rate = draws.normal(size=(16, 3)), draws.normal(size=(len(contacts.i), 3))
-    assert np.sum(relative(contacts, u) * rate) == pytest.approx(
-        np.sum(u * net(contacts, rate, 16)), rel=1e-12
+    assert np.sum(relative_displacement(contacts, u) * rate) == pytest.approx(
+        np.sum(u * sum_over_contacts(contacts, rate, 16)), rel=1e-12
     )
 
 

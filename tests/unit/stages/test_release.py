@@ -14,7 +14,7 @@ import pytest
 from grainmodes.cli import main
 from grainmodes.dataset.files import read_block, write_block
 from grainmodes.ensemble.point import merge_blocks
-from grainmodes.packing.forces import largest, net_force
+from grainmodes.packing.forces import max_force_and_torque, net_force
 from grainmodes.parameters.release import Release
 from grainmodes.protocols.release.release_run import FRAMES, ReleaseRun
 from grainmodes.stages.checkpoints import CheckpointFiles
@@ -33,7 +33,7 @@ def block():
 def test_the_state_of_the_pairs_is_taken_up_exactly():
     start, _, interaction = state()
     found = unstable_state(complex_pairs_block(), 0)
-    assert max(largest(net_force(found.packing, interaction))) < 1e-14
+    assert max(max_force_and_torque(net_force(found.packing, interaction))) < 1e-14
     assert found.residual(interaction) < 1e-12
     np.testing.assert_array_equal(found.packing.fraction, start.packing.fraction)
     assert found.eigenvalue == start.eigenvalue

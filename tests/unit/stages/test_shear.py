@@ -17,7 +17,7 @@ from grainmodes.dataset.files import Block, read_block, write_block
 from grainmodes.ensemble.point import merge_blocks
 from grainmodes.kernels.laws import Harmonic, Interaction
 from grainmodes.packing.contacts import History
-from grainmodes.packing.forces import largest, net_force
+from grainmodes.packing.forces import max_force_and_torque, net_force
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
@@ -67,7 +67,7 @@ def test_an_event_can_be_taken_up_from_either_side(sheared):
     assert values["event_count"][0] >= 1
     for side in ("before", "after"):
         held = values[f"event_contact_i_{side}"][0, 0] >= 0
-        history = History.of(
+        history = History.from_pairs(
             *(values[f"event_{name}_{side}"][0, 0][held] for name in ("contact_i", "contact_j")),
             values[f"event_spring_state_{side}"][0, 0][held],
         )
@@ -80,7 +80,7 @@ def test_an_event_can_be_taken_up_from_either_side(sheared):
             history=history,
         )
         interaction = Interaction.from_law(LAW)
-        assert max(largest(net_force(state, interaction))) < 1e-14
+        assert max(max_force_and_torque(net_force(state, interaction))) < 1e-14
 
 
 def test_a_packing_that_is_not_jammed_has_no_curve(sheared):

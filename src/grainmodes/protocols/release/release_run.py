@@ -31,7 +31,7 @@ from grainmodes.parameters.release import DENSE_RECORDS_ONSET, Release
 from grainmodes.protocols.release.record import MotionRecord, record_motion
 from grainmodes.protocols.release.unstable_state import UnstableState
 from grainmodes.relaxation.dynamics import Motion, move
-from grainmodes.response.stability import eigenvalues
+from grainmodes.response.stability import mass_weighted_eigenvalues
 from grainmodes.runtime.progress import Progress
 
 DENSE_TURNS, RECORDS_PER_TURN = 12, 24
@@ -157,7 +157,9 @@ class ReleaseRun:
         if self.steps in self.frame_steps:
             self.film.append((self.steps, nonaffine_motion(packing, self.motion.packing)))
         if self._spectrum_is_due():
-            self.spectra.append((self.steps, eigenvalues(self.motion.packing, self.interaction)))
+            self.spectra.append(
+                (self.steps, mass_weighted_eigenvalues(self.motion.packing, self.interaction))
+            )
 
     def _spectrum_is_due(self) -> bool:
         choices, few = self.choices, 3 * self.start.packing.n <= MAX_SPECTRUM_DOF

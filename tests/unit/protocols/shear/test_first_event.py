@@ -26,7 +26,7 @@ from grainmodes.protocols.shear.first_event import (
     run_to_first_event,
 )
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
-from grainmodes.response.stability import SMALL, lowest_mode
+from grainmodes.response.stability import MAX_DENSE_SIZE, lowest_mode
 
 B = LAWS[1]
 
@@ -127,8 +127,8 @@ def test_the_lowest_mode_is_that_of_a_dense_spectrum(law, side):
 def test_few_grains_have_the_same_lowest_mode(monkeypatch):
     equilibrium = narrowest(B).after.equilibrium
     modes = []
-    for small in (SMALL, 1000):
-        monkeypatch.setattr("grainmodes.response.stability.SMALL", small)
+    for small in (MAX_DENSE_SIZE, 1000):
+        monkeypatch.setattr("grainmodes.response.stability.MAX_DENSE_SIZE", small)
         factor = PinnedFactor(equilibrium.matrix, symmetric=False)
         modes.append(lowest_mode(equilibrium.matrix, factor, 3))
     assert_allclose(modes[1].vector, modes[0].vector, rtol=0, atol=1e-9)
