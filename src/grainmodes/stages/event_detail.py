@@ -26,6 +26,7 @@ from grainmodes.protocols.shear.event_states import (
     simulated_nonaffine_rate,
     states_around,
 )
+from grainmodes.protocols.shear.events import PlasticEvent
 from grainmodes.protocols.shear.first_event import (
     Bracket,
     accepted_steps,
@@ -33,6 +34,7 @@ from grainmodes.protocols.shear.first_event import (
     refined_steps,
 )
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
+from grainmodes.protocols.shear.sheared_state import ShearedState
 from grainmodes.protocols.shear.tangential_path import PathError, TangentialPath
 from grainmodes.stages.rows import response_block
 from grainmodes.stages.samples import first_sample, jammed_packing
@@ -45,12 +47,8 @@ def event_detail_block(packings: Block, law: ContactLaw, choices: Shear) -> Bloc
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, interaction)
-        row: dict[str, object] = {
-            "event_count": 0,
-            "path_count": 0,
-            "jammed": jammed,
-            "converged": True,
-        }
+        row: dict[str, object] = {"event_count": 0, "path_count": 0}
+        row |= {"jammed": jammed, "converged": True}
         if not jammed:
             return row | _grains(packing)
         brackets, refined = (
@@ -59,9 +57,9 @@ def event_detail_block(packings: Block, law: ContactLaw, choices: Shear) -> Bloc
         )
         narrowest = brackets[-1]
         row |= _brackets(brackets) | _path_errors(packing, interaction, refined[0])
-        if narrowest.event is None:
+        if narrowest.event is None or narrowest.after is None:
             return row | _grains(packing)
-        return row | _event(narrowest, refined[-1])
+        return row | _event(narrowest, narrowest.event, narrowest.after, refined[-1])
 
     shear = {name: value for name, value in asdict(choices).items() if name != "min_step"}
     config = {"law": asdict(law), "shear": shear, "rate": RATE_STEP, "slope": SLOPE_STEP}
@@ -90,18 +88,17 @@ def _brackets(brackets: Sequence[Bracket]) -> dict[str, object]:
 
 def _bracket_values(bracket: Bracket) -> tuple[float, float, int, int, int]:
     """Stress before and after the event, its kind, and the contacts opened and closed."""
-    event = bracket.event
-    if event is None:
+    event, after = bracket.event, bracket.after
+    if event is None or after is None:
         return np.nan, np.nan, 0, 0, 0
-    before, after = bracket.before, bracket.after
-    assert before is not None and after is not None  # both exist where there is an event
-    return before.sigma, after.sigma, event.kind, event.opened, event.closed
+    return bracket.before.sigma, after.sigma, event.kind, event.opened, event.closed
 
 
-def _event(bracket: Bracket, choices: Shear) -> dict[str, object]:
+def _event(
+    bracket: Bracket, event: PlasticEvent, after: ShearedState, choices: Shear
+) -> dict[str, object]:
     """The event, the states around it and its fields; grains where they are just after it."""
-    event, before, after = bracket.event, bracket.before, bracket.after
-    assert event is not None and before is not None and after is not None
+    before = bracket.before
     (mode_before, vector_before), (mode_after, vector_after) = map(lowest_mode_of, (before, after))
     overlap = np.nansum(vector_before * vector_after)
     return _grains(event.after) | {

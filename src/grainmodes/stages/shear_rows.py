@@ -50,12 +50,8 @@ def bracket_ends(brackets: Sequence[Bracket]) -> dict[str, object]:
     """Both ends of the bracket of the first event at every Δγ_Th; NaN where there is no event."""
     return {
         "bracket_min_step": [b.min_step for b in brackets],
-        "bracket_strain_before": [
-            b.before.strain if b.before and b.event else np.nan for b in brackets
-        ],
-        "bracket_strain_after": [
-            b.after.strain if b.after and b.event else np.nan for b in brackets
-        ],
+        "bracket_strain_before": [b.before.strain if b.after else np.nan for b in brackets],
+        "bracket_strain_after": [b.after.strain if b.after else np.nan for b in brackets],
     }
 
 

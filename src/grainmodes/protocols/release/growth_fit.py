@@ -19,7 +19,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import least_squares
+from scipy.optimize import OptimizeResult, least_squares
 
 from grainmodes.parameters.release import GROWTH_RANGE
 
@@ -50,8 +50,8 @@ class GrowthFit(NamedTuple):
     phase: float
     misfit: float
 
-    def mean(self, time: np.ndarray) -> np.ndarray:
-        """a e^(2ω_i t): the fit without its oscillation, at times (R,)."""
+    def mean(self, time: np.ndarray | float) -> np.ndarray:
+        """a e^(2ω_i t): the fit without its oscillation, at times (R,) or at one time."""
         return self.size * np.exp(2.0 * self.rate * time)
 
     def at(self, time: np.ndarray) -> np.ndarray:
@@ -91,7 +91,7 @@ def _densest_record(time: np.ndarray) -> int:
     return int(np.argmin(spread)) + MIN_RECORDS // 2
 
 
-def _fit_exponents(time: np.ndarray, square: np.ndarray, start: np.ndarray):
+def _fit_exponents(time: np.ndarray, square: np.ndarray, start: np.ndarray) -> OptimizeResult:
     """ω_i and ω_r by least squares, each in units of what the span of times resolves."""
     flat, unit = square * np.exp(-2.0 * start[0] * time), 1.0 / np.ptp(time)
     flat = flat / flat.mean()
@@ -112,7 +112,9 @@ def _terms(time: np.ndarray, parameters: np.ndarray) -> np.ndarray:
     )
 
 
-def _growth_fit(found, time: np.ndarray, square: np.ndarray, shift: float) -> GrowthFit:
+def _growth_fit(
+    found: OptimizeResult, time: np.ndarray, square: np.ndarray, shift: float
+) -> GrowthFit:
     """The fit with the exponents `found`, whose times were counted from `shift`."""
     rate, frequency = found.x
     flat = square * np.exp(-2.0 * rate * time)

@@ -24,7 +24,7 @@ from grainmodes.relaxation.equilibrium_state import rattler_threshold
 
 
 class MotionRecord(NamedTuple):
-    """A moving state in numbers.
+    """A moving state in numbers, or the means of several such records.
 
     | field                    | unit        | meaning                                          |
     | ------------------------ | ----------- | ------------------------------------------------ |
@@ -46,8 +46,8 @@ class MotionRecord(NamedTuple):
     stress_xy: float
     stress_yx: float
     contact_number: float
-    sliding: int
-    changed: int
+    sliding: float
+    changed: float
     kinetic_energy: float
 
 

@@ -46,8 +46,13 @@ class BranchState(NamedTuple):
 
 
 def states_around(bracket: Bracket, choices: Shear) -> list[BranchState]:
-    """The states on both branches, γ ascending; a branch ends where there is no equilibrium."""
+    """The states on both branches, γ ascending; none without an event.
+
+    A branch ends where there is no equilibrium.
+    """
     low, high = bracket.before, bracket.after
+    if high is None:
+        return []
     distances = branch_distances(choices)
     before = _states_on_branch(low, [-d for d in distances], high.strain, choices)
     after = _states_on_branch(high, distances, low.strain, choices)

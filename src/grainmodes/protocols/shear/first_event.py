@@ -29,7 +29,7 @@ CURVE_MARGIN = 2
 class Bracket:
     """The first event between the states `before` and `after`, and the curve around it.
 
-    Without an event `before` is the last state of the run.
+    Without an event `before` is the last state of the run, `event` and `after` are None.
     """
 
     min_step: float
