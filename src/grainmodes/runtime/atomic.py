@@ -1,4 +1,4 @@
-"""Files that appear whole or not at all."""
+"""Atomic writes: a file appears as a whole or not at all."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from pathlib import Path
 
 @contextmanager
 def replaced(path: str | Path) -> Iterator[Path]:
-    """A temporary neighbour of `path` to write into; it takes the name `path` at the end.
+    """A temporary file beside `path` to write into, which is renamed to `path` at the end.
 
-    Missing folders are made. If the body raises, the temporary file is removed and whatever stood
-    under `path` before stays as it was.
+    Missing folders are created. If the body raises, the temporary file is removed, and a file that
+    existed under `path` stays as it was.
 
     Raises:
-        OSError: the folder cannot be made or the file cannot be renamed.
+        OSError: the folder cannot be created, or the file cannot be renamed.
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)

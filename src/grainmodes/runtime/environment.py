@@ -1,9 +1,9 @@
-"""The process before numba and BLAS wake up: one thread, and a cache that belongs to the code.
+"""Environment variables for numba and BLAS: one thread, and a cache folder for this code.
 
-Both are read from the environment once, at import, so `prepare` must run before either library is
-imported. Two BLAS threads beside a second job on two cores can be ten times slower than one, and
-numba's cache on disk does not notice an edit in a called function of another file: hence a pinned
-number of threads, and a cache folder named by the fingerprint of the kernels.
+Both libraries read them once, when they are imported, so `prepare` must run before that. Two BLAS
+threads beside a second job on two cores can be ten times slower than one thread, which is why the
+number of threads is fixed. numba's cache on disk does not notice that a function called from another
+file was edited, which is why the cache folder is named by the fingerprint of the kernels.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ THREAD_VARIABLES = (
 
 
 def prepare() -> None:
-    """Pin the threads that the environment leaves open, and set NUMBA_CACHE_DIR.
+    """Set one thread where the environment sets no number of threads, and set NUMBA_CACHE_DIR.
 
-    MKL, where PARDISO is installed, takes one branch of its code whatever the alignment of arrays,
-    so that the same input gives the same bytes.
+    MKL_CBWR makes MKL, which PARDISO uses, independent of the alignment of arrays in memory, so that
+    the same input gives the same bytes.
     """
     for name in THREAD_VARIABLES:
         os.environ.setdefault(name, "1")
@@ -35,12 +35,12 @@ def prepare() -> None:
 
 
 def numba_cache() -> Path:
-    """Folder of the compiled kernels, named by their fingerprint.
+    """The folder of the compiled kernels, named by their fingerprint.
 
-    It lies where NUMBA_CACHE_DIR says, else in the checkout, else in the user's cache folder.
+    It lies in NUMBA_CACHE_DIR if that is set, else in the checkout, else in the user's cache folder.
     """
-    asked = os.environ.get("NUMBA_CACHE_DIR")
-    parent = Path(asked) if asked else _default_parent()
+    requested = os.environ.get("NUMBA_CACHE_DIR")
+    parent = Path(requested) if requested else _default_parent()
     return parent if parent.name == kernel_hash() else parent / kernel_hash()
 
 

@@ -1,4 +1,4 @@
-"""How far a long run is."""
+"""Progress of a long run."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 
 class Progress(NamedTuple):
-    """The part done (0 to 1), the same in words, and a count of some unit."""
+    """The fraction that is done (0 to 1), the same in words, and a count of some unit."""
 
     done: float
     words: str

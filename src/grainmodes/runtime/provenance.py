@@ -1,8 +1,9 @@
 """Which code made a result: the sources behind a stage, and fingerprints of the code.
 
-Snakemake does not see an edit in an imported module, and numba's cache on disk does not see one in
-a called function of another file. Both are told here, from the text of the sources alone: imports
-are followed statically, those inside functions included, so nothing has to be imported to know.
+Snakemake does not notice an edit in an imported module, and numba's cache on disk does not notice one
+in a function that is called from another file. This module finds the sources that matter for both. It
+reads the text of the sources and follows their import statements, also those inside functions; nothing
+is imported.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ PACKAGE = Path(__file__).resolve().parents[1]
 """The folder of the package `grainmodes`."""
 
 DATA = (".mplstyle", ".yaml")
-"""Suffixes of the files that a package reads beside its modules."""
+"""Suffixes of the data files in the folders of packages."""
 
 
 def source_hash() -> str:
@@ -30,7 +31,7 @@ def source_hash() -> str:
 def kernel_hash() -> str:
     """Fingerprint of all code that numba compiles: the kernels and the constants they may freeze.
 
-    Narrower than `source_hash`, so that an edit of a figure does not compile the kernels anew.
+    An edit elsewhere, in a figure say, does not change it, so that the kernels are not compiled again.
     """
     return _fingerprint([*(PACKAGE / "kernels").rglob("*.py"), PACKAGE / "parameters" / "law.py"])
 
@@ -44,9 +45,9 @@ def stage_sources(*entries: str) -> list[Path]:
     """The files whose edit can change what a stage computes, sorted.
 
     Args:
-        entries: `package.module`, or `package.module:function`. A function counts with those
-            imports of its module that it can reach; everything else counts with all its imports,
-            and a package with the data files in its folder.
+        entries: `package.module`, or `package.module:function`. Of the module of a function, only
+            the imports that the function can reach count; of every other module all imports count,
+            and of a package also the data files in its folder.
 
     Raises:
         ModuleNotFoundError: an entry names no module of the package.
@@ -64,7 +65,7 @@ def stage_sources(*entries: str) -> list[Path]:
 
 
 def script_sources(*scripts: Path) -> list[Path]:
-    """Scripts outside the package, and the files of it whose edit can change what they do."""
+    """Scripts outside the package, and the files of the package whose edit can change what they do."""
     found = _closure(_imports(_tree(script) for script in scripts))
     return [*scripts, *_with_data(found)]
 
@@ -106,7 +107,7 @@ def _imported_names(node: ast.AST) -> Iterator[str]:
 
 
 def _files(module: str) -> Iterator[Path]:
-    """Files executed by `import module`: the module's and its packages', where they are ours."""
+    """Files of this package that `import module` executes: of the module and of its parent packages."""
     parts = module.split(".")
     paths = (_file(".".join(parts[:depth])) for depth in range(1, len(parts) + 1))
     return (path for path in paths if path is not None)
@@ -130,7 +131,7 @@ def _tree(path: Path) -> ast.Module:
 
 
 def _reached(path: Path, function: str) -> list[ast.stmt]:
-    """Statements at the top of a module that `function` depends on, itself and imports included."""
+    """Top-level statements of a module that `function` depends on, including imports and itself."""
     definitions: dict[str, list[ast.stmt]] = {}
     for statement in _tree(path).body:
         for name in _bound_names(statement):
@@ -149,7 +150,7 @@ def _reached(path: Path, function: str) -> list[ast.stmt]:
 
 
 def _bound_names(statement: ast.stmt) -> set[str]:
-    """Names that a statement at the top of a module binds, whichever way."""
+    """Names that a top-level statement of a module binds."""
     if isinstance(statement, ast.FunctionDef | ast.ClassDef):
         return {statement.name}
     if isinstance(statement, ast.Import | ast.ImportFrom):

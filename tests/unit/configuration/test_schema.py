@@ -1,5 +1,6 @@
 """The schema: shipped scenes, defaults, and keys that say what they are."""
 
+import re
 from copy import deepcopy
 
 import pytest
@@ -32,6 +33,13 @@ def leaves(rule: dict, path: str = ""):
 @pytest.mark.parametrize("path", sorted(CONFIG.glob("*.yaml")), ids=lambda path: path.stem)
 def test_shipped_scenes_are_valid(path):
     assert read_scene(path).study == path.stem
+
+
+def test_the_handbook_lists_every_scene():
+    handbook = (CONFIG / "README.md").read_text(encoding="utf-8")
+    table = handbook.partition("| file |")[2].partition("\n\n")[0]
+    listed = re.findall(r"^\| `(\S+\.yaml)` \| \S", table, re.MULTILINE)
+    assert sorted(listed) == sorted(path.name for path in CONFIG.glob("*.yaml"))
 
 
 def test_the_default_scene_is_paper_a_small():

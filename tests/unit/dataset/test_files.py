@@ -14,6 +14,7 @@ from numpy.testing import assert_array_equal
 
 from grainmodes.dataset import VARIABLES
 from grainmodes.dataset.files import Block, BlockError, read_block, write_block
+from grainmodes.parameters.stages import STAGES
 
 DATA_MD = Path(__file__).parents[3] / "docs" / "data.md"
 
@@ -143,6 +144,14 @@ def test_every_variable_is_described_in_the_documentation():
         expected = f"{', '.join(variable.dimensions)} | {variable.unit.text()} | {meaning}"
         assert rows.get(name) == expected, f"docs/data.md needs: | `{name}` | {expected} |"
     assert set(rows) == set(VARIABLES)
+
+
+def test_every_stage_is_listed_in_the_documentation():
+    text = DATA_MD.read_text(encoding="utf-8")
+    (row,) = re.findall(r"^\| `stage` \| [^|]* \| (.*) \|$", text, re.MULTILINE)
+    assert set(re.split(", | or ", row)) == {stage.output for stage in STAGES.values()} | {"point"}
+    folders = set(re.findall(r"^\| .*`(\w+)/", text.partition("| file |")[2], re.MULTILINE))
+    assert {stage.output for stage in STAGES.values()} - {"spectrum_rattlers"} <= folders
 
 
 def test_only_coordinates_share_the_name_of_a_dimension():
