@@ -1,6 +1,4 @@
-"""Commands that collect: blocks into a point, points into an ensemble, either into figures, and an
-ensemble into verdicts on the claims of the paper.
-"""
+"""Commands that join blocks and points, draw figures, and check claims."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Commands about a scene, or about a pilot of one, that compute nothing."""
+"""Commands that estimate the cost of a scene, or the seeds that an accuracy needs."""
 
 from __future__ import annotations
 

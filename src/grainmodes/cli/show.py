@@ -1,4 +1,4 @@
-"""What a netCDF file of a study holds, in words."""
+"""The command `show`: what a netCDF file of a study holds."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 from grainmodes.dataset.files import BlockError
 
 LAST = ("config", "failures")
-"""Attributes that are long; shown below the variables."""
+"""Long attributes, which are shown below the variables."""
 
 
 def show(arguments: Namespace) -> None:

@@ -79,7 +79,7 @@ def _resume(
 
 
 def point(arguments: Namespace) -> None:
-    """Everything of one point, without files between."""
+    """All observables of one point, without files between the stages."""
     from grainmodes.stages.point import point_block
 
     check_point(arguments.n, arguments.phi, arguments.kt)
@@ -113,9 +113,9 @@ def _with_options(arguments: Namespace) -> dict:
 
 @contextmanager
 def _opened(path: Path, stage: Stage) -> Iterator[Block]:
-    """The block in a file, if that stage made it; complaints about its content name the file."""
+    """The block in a file, if that stage made it; errors about its content name the file."""
     block = read_block(path)
-    found = block.attributes.get("stage", "something else")
+    found = block.attributes.get("stage", "none")
     if found != stage.output:
         raise BlockError(f"{path}: expected {stage.output}, got {found}")
     try:

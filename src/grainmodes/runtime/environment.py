@@ -1,9 +1,9 @@
 """Environment variables for numba and BLAS: one thread, and a cache folder for this code.
 
 Both libraries read them once, when they are imported, so `prepare` must run before that. Two BLAS
-threads beside a second job on two cores can be ten times slower than one thread, which is why the
-number of threads is fixed. numba's cache on disk does not notice that a function called from another
-file was edited, which is why the cache folder is named by the fingerprint of the kernels.
+threads beside a second job on two cores can be ten times slower than one thread: hence a fixed
+number of threads. numba's cache on disk does not notice an edit in a function that is called from
+another file: hence a cache folder that is named by the fingerprint of the kernels.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ THREAD_VARIABLES = (
 def prepare() -> None:
     """Set one thread where the environment sets no number of threads, and set NUMBA_CACHE_DIR.
 
-    MKL_CBWR makes MKL, which PARDISO uses, independent of the alignment of arrays in memory, so that
-    the same input gives the same bytes.
+    MKL_CBWR makes MKL, which PARDISO uses, independent of the alignment of arrays in memory, so
+    that the same input gives the same bytes.
     """
     for name in THREAD_VARIABLES:
         os.environ.setdefault(name, "1")
@@ -37,7 +37,8 @@ def prepare() -> None:
 def numba_cache() -> Path:
     """The folder of the compiled kernels, named by their fingerprint.
 
-    It lies in NUMBA_CACHE_DIR if that is set, else in the checkout, else in the user's cache folder.
+    It lies in NUMBA_CACHE_DIR if that is set, else in the checkout, else in the cache folder of the
+    user.
     """
     requested = os.environ.get("NUMBA_CACHE_DIR")
     parent = Path(requested) if requested else _default_parent()

@@ -1,9 +1,9 @@
 """Which code made a result: the sources behind a stage, and fingerprints of the code.
 
-Snakemake does not notice an edit in an imported module, and numba's cache on disk does not notice one
-in a function that is called from another file. This module finds the sources that matter for both. It
-reads the text of the sources and follows their import statements, also those inside functions; nothing
-is imported.
+Snakemake does not notice an edit in an imported module, and numba's cache on disk does not notice
+one in a function that is called from another file. This module finds the sources that matter for
+both. It reads the text of the sources and follows their import statements, also those inside
+functions; nothing is imported.
 """
 
 from __future__ import annotations
@@ -31,7 +31,8 @@ def source_hash() -> str:
 def kernel_hash() -> str:
     """Fingerprint of all code that numba compiles: the kernels and the constants they may freeze.
 
-    An edit elsewhere, in a figure say, does not change it, so that the kernels are not compiled again.
+    An edit elsewhere, such as in a figure, does not change it, so that the kernels are not compiled
+    again.
     """
     return _fingerprint([*(PACKAGE / "kernels").rglob("*.py"), PACKAGE / "parameters" / "law.py"])
 
@@ -65,7 +66,7 @@ def stage_sources(*entries: str) -> list[Path]:
 
 
 def script_sources(*scripts: Path) -> list[Path]:
-    """Scripts outside the package, and the files of the package whose edit can change what they do."""
+    """Scripts outside the package, and the files of it whose edit can change what they do."""
     found = _closure(_imports(_tree(script) for script in scripts))
     return [*scripts, *_with_data(found)]
 
@@ -107,7 +108,7 @@ def _imported_names(node: ast.AST) -> Iterator[str]:
 
 
 def _files(module: str) -> Iterator[Path]:
-    """Files of this package that `import module` executes: of the module and of its parent packages."""
+    """Files of this package that `import module` executes: the module's and its parents'."""
     parts = module.split(".")
     paths = (_file(".".join(parts[:depth])) for depth in range(1, len(parts) + 1))
     return (path for path in paths if path is not None)

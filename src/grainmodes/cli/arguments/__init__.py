@@ -1,4 +1,4 @@
-"""The words of the command line: commands, options, and what they mean; a module per theme."""
+"""The arguments and help texts of all commands; a module per theme."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from grainmodes.cli.arguments.options import UNITS
 DESCRIPTION = """\
 Rigidity and vibrational modes of two-dimensional packings of frictional grains.
 
-A study is run by `make study` or `snakemake`, which call these commands. By hand, one sample is
+`make study` or `snakemake` runs a study by calling these commands. To compute one sample by hand:
 
   grainmodes point --n 256 --phi 0.9 --kt 1e-4 --seed 3 -o point.nc
   grainmodes show point.nc
 
-and step by step
+The same step by step:
 
   grainmodes compress --n 256 --phi 0.8 --seeds 0-7 -o 0.80.nc
   grainmodes compress --n 256 --phi 0.81 --seeds 0-7 --start 0.80.nc -o 0.81.nc

@@ -1,4 +1,4 @@
-"""Commands that collect: blocks, points, and what is drawn and judged from an ensemble."""
+"""Commands that join blocks and points, draw figures, and check claims."""
 
 from __future__ import annotations
 
@@ -17,9 +17,14 @@ def define(commands: Commands) -> None:
 
 
 def _gather(commands: Commands) -> None:
-    sentence = "Join all blocks of seeds and all observables of one point."
+    sentence = "Join all observables and all blocks of seeds of one point into one file."
     command = options.command(commands, "gather", "collections:gather", sentence)
-    command.add_argument("blocks", type=Path, nargs="+", help="files of pack, rigidity, ...")
+    command.add_argument(
+        "blocks",
+        type=Path,
+        nargs="+",
+        help="files of `equilibrate`, `rigidity` and other stages of one point",
+    )
     options.output(command)
 
 
@@ -32,24 +37,26 @@ def _ensemble(commands: Commands) -> None:
         type=options.json_object,
         default={},
         metavar="JSON",
-        help="configuration to keep in the file",
+        help="configuration to store in the file",
     )
     options.output(command)
 
 
 def _figure(commands: Commands) -> None:
-    sentence = "Draw a figure: PNG, PDF, and the plotted numbers as CSV."
+    sentence = "Draw a figure as PNG and PDF, and write the plotted numbers as CSV."
     command = options.command(commands, "figure", "collections:figure", sentence)
-    command.add_argument("figure", choices=FIGURES, metavar="NAME", help=", ".join(FIGURES))
+    command.add_argument(
+        "figure", choices=FIGURES, metavar="NAME", help=f"one of {', '.join(FIGURES)}"
+    )
     command.add_argument(
         "data",
         type=Path,
         nargs="+",
-        help="file of `grainmodes ensemble`, or files of `fields`, `event-detail` or `release`",
+        help="a file of `ensemble`, or files of `fields`, `event-detail` or `release`",
     )
     _shown(command)
-    command.add_argument("--bin_density", type=float, help="factor on the numbers of linear bins")
-    options.output(command, "path without suffix; .png, .pdf and .csv are written")
+    command.add_argument("--bin-density", type=float, help="factor on the numbers of linear bins")
+    options.output(command, "path without suffix, to which .png, .pdf and .csv are appended")
 
 
 def _film(commands: Commands) -> None:
@@ -61,10 +68,12 @@ def _film(commands: Commands) -> None:
 
 
 def _shown(command: ArgumentParser) -> None:
-    command.add_argument("--n", type=int, help="the number of grains to show")
-    command.add_argument("--phi", type=float, help="the area fraction to show")
-    command.add_argument("--kt", type=float, nargs="+", help="the tangential stiffnesses to show")
-    command.add_argument("--seed", type=int, help="the sample to show")
+    command.add_argument("--n", type=int, help="number of grains to show")
+    command.add_argument("--phi", type=float, help="area fraction to show")
+    command.add_argument(
+        "--kt", type=float, nargs="+", help="tangential stiffnesses k_T / k_N to show"
+    )
+    command.add_argument("--seed", type=int, help="seed of the sample to show")
 
 
 def _claims(commands: Commands) -> None:
@@ -78,5 +87,5 @@ def _claims(commands: Commands) -> None:
         nargs="+",
         default=[],
         metavar="FILE",
-        help="pages (.md) and tables (.csv) to write; without any, a table is printed",
+        help="pages (.md) and tables (.csv) to write; by default a table is printed",
     )

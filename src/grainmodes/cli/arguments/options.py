@@ -1,4 +1,4 @@
-"""What commands share: how one is made, the options of many of them, and the values of these."""
+"""Parts that many commands share: how one is added, common options, and checks of their values."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from typing import TypeAlias
 from grainmodes.parameters.grid import parse_seeds
 
 Commands: TypeAlias = "argparse._SubParsersAction[ArgumentParser]"
-"""The place where a parser keeps its commands."""
+"""The object to which commands of a parser are added."""
 
-UNITS = "Units: k_N = m = d = 1, d being the diameter and m the mass of a large grain."
+UNITS = "Units: k_N = m = d = 1, where d and m are the diameter and the mass of a large grain."
 
 
 def command(commands: Commands, name: str, run: str, sentence: str) -> ArgumentParser:
@@ -25,7 +25,7 @@ def command(commands: Commands, name: str, run: str, sentence: str) -> ArgumentP
 
 def n(command: ArgumentParser) -> None:
     """`--n`, required."""
-    command.add_argument("--n", type=int, required=True, help="number of grains, even")
+    command.add_argument("--n", type=int, required=True, help="number of grains, an even number")
 
 
 def phi(command: ArgumentParser) -> None:
@@ -36,7 +36,7 @@ def phi(command: ArgumentParser) -> None:
 def kt(command: ArgumentParser) -> None:
     """`--kt`, required."""
     command.add_argument(
-        "--kt", type=float, required=True, help="tangential stiffness k_T / k_N; 0: frictionless"
+        "--kt", type=float, required=True, help="tangential stiffness k_T / k_N; 0 is frictionless"
     )
 
 
@@ -48,29 +48,31 @@ def seeds(command: ArgumentParser) -> None:
         type=_seed_range,
         required=True,
         metavar="SEEDS",
-        help="one seed, as 3, or a range with both ends, as 0-7",
+        help="one seed, such as 3, or a range that includes both ends, such as 0-7",
     )
 
 
 def settings(command: ArgumentParser) -> None:
-    """`--settings`: what deviates from the defaults."""
+    """`--settings`: the settings that differ from the defaults."""
     command.add_argument(
         "--settings",
         type=json_object,
         default={},
         metavar="JSON",
-        help="a piece of a configuration: contact_law, observables, protocol (config/README.md)",
+        help="settings that differ from the defaults, such as "
+        '{"contact_law": {"normal": "harmonic"}}; keys: contact_law, observables, protocol '
+        "(config/README.md)",
     )
 
 
 def checkpoint_every(command: ArgumentParser) -> None:
-    """`--checkpoint-every`: how often long samples are kept."""
+    """`--checkpoint-every`: how often checkpoints of long samples are saved."""
     command.add_argument(
         "--checkpoint-every",
         type=seconds,
         default=120.0,
         metavar="SECONDS",
-        help="how often to keep how far a sample has come, beside the output file",
+        help="time between two checkpoints of a long sample; they lie beside the output file; default 120",
     )
 
 
@@ -105,7 +107,7 @@ def seconds(text: str) -> float:
 
 
 def share(text: str) -> float:
-    """A part of a whole, as 1% or 0.01."""
+    """A fraction between 0 and 1, such as 1% or 0.01."""
     number, percent, rest = text.partition("%")
     try:
         value = float(number) / (100.0 if percent else 1.0)

@@ -1,4 +1,4 @@
-"""Commands that compute: grains to checkpoints to packings, and what is measured on these."""
+"""Commands that compute: checkpoints of a compression, packings, and every stage of the table."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from grainmodes.parameters.stages import STAGES, Stage, responses
 
 
 def define(commands: Commands) -> None:
-    """Add these commands, in the order in which a sample passes them."""
+    """Add these commands, in the order in which a sample runs through them."""
     _compress(commands)
     _equilibrate(commands)
     for stage in responses():
@@ -21,9 +21,7 @@ def define(commands: Commands) -> None:
 
 
 def _compress(commands: Commands) -> None:
-    command = options.command(
-        commands, "compress", "stages:compress", "Compress grains to a checkpoint of a trajectory."
-    )
+    command = options.command(commands, "compress", "stages:compress", STAGES["compress"].sentence)
     options.n(command)
     options.phi(command)
     options.seeds(command)
@@ -32,14 +30,14 @@ def _compress(commands: Commands) -> None:
         nargs="?",
         type=Path,
         metavar="FILE",
-        help="the checkpoint below; without it the grains start at random places",
+        help="the checkpoint below --phi; by default the grains are placed at random",
     )
     options.settings(command)
     options.output(command)
 
 
 def _equilibrate(commands: Commands) -> None:
-    sentence = "Bring a checkpoint to an area fraction, in force balance."
+    sentence = STAGES["equilibrate"].sentence
     command = options.command(commands, "equilibrate", "stages:equilibrate", sentence)
     command.add_argument("start", type=Path, help="the checkpoint at or below --phi")
     options.phi(command)
@@ -68,7 +66,7 @@ def _response(commands: Commands, stage: Stage) -> None:
 
 
 def _point(commands: Commands) -> None:
-    sentence = "Everything of one point of the grid, from random grains on, in one go."
+    sentence = "Compute all observables of one point, starting from random placement, in one run."
     command = options.command(commands, "point", "stages:point", sentence)
     options.n(command)
     options.phi(command)
@@ -76,7 +74,9 @@ def _point(commands: Commands) -> None:
     options.seeds(command)
     command.add_argument("--normal", choices=NORMAL_LAWS, help="normal law")
     command.add_argument("--tangential", choices=TANGENTIAL_LAWS, help="tangential law")
-    command.add_argument("--friction-coefficient", type=float, metavar="MU", help="Coulomb's mu")
-    command.add_argument("--spectrum", choices=SPECTRA, help="what to compute of the spectrum")
+    command.add_argument(
+        "--friction-coefficient", type=float, metavar="MU", help="Coulomb's friction coefficient"
+    )
+    command.add_argument("--spectrum", choices=SPECTRA, help="kind of spectrum to compute")
     options.settings(command)
     options.output(command)
