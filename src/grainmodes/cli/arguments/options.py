@@ -72,7 +72,7 @@ def checkpoint_every(command: ArgumentParser) -> None:
         type=seconds,
         default=120.0,
         metavar="SECONDS",
-        help="time between two checkpoints of a long sample; they lie beside the output file; default 120",
+        help="time between checkpoints of a long sample, kept beside the output file; default 120",
     )
 
 
