@@ -70,5 +70,7 @@ def _errors(
 def _distance(one: Motion, other: Motion) -> float:
     """|q − q'| of two motions of a packing in a box that is not sheared."""
     step = (one.packing.fraction - other.packing.fraction) * FRACTION_UNIT * one.packing.box_length
+    # Every motion has rotations: `move` sets them.
+    assert one.packing.rotation is not None and other.packing.rotation is not None
     turn = one.packing.rotation - other.packing.rotation
     return float(np.sqrt(np.sum(step**2) + np.sum(turn**2)))

@@ -132,8 +132,8 @@ def _grains(packing: Packing, velocity: NDArray[np.float64]) -> Grains:
     x, y = packing.fraction.copy()
     vx, vy, w = np.array(velocity.T, order="C")
     rotation = np.zeros(packing.n) if packing.rotation is None else packing.rotation.copy()
-    no_force = np.zeros((3, packing.n))
-    return Grains(x, y, vx, vy, w, *no_force, rotation, packing.mass, packing.diameter)
+    fx, fy, torque = np.zeros((3, packing.n))
+    return Grains(x, y, vx, vy, w, fx, fy, torque, rotation, packing.mass, packing.diameter)
 
 
 def _springs(packing: Packing, pairs: Neighbours) -> NDArray[np.float64]:

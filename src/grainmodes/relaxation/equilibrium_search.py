@@ -53,19 +53,21 @@ def find_equilibrium(
         PackingError: two grains lie at the same place.
         FloppyError: the backbone of `before` has zero modes beyond the translations.
     """
-    state: EquilibriumState | None = EquilibriumState.from_packing(packing, interaction)
-    if before is not None:
-        state = state.with_factors_of(before)
+    start = EquilibriumState.from_packing(packing, interaction)
+    state = start if before is None else start.with_factors_of(before)
     for _ in range(MAX_ITERATIONS):
-        if state is None or state.released_force > max_released_force:
+        if state.released_force > max_released_force:
             return None
         if state.residual < tolerance:
             detached = _with_detached_rattlers(state)
             if detached is state:
                 return state
             state = detached
-        else:
-            state = _newton_step(state, tolerance)
+            continue
+        after = _newton_step(state, tolerance)
+        if after is None:
+            return None
+        state = after
     return None
 
 

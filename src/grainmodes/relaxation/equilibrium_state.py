@@ -202,9 +202,10 @@ class EquilibriumState:
         Raises:
             FloppyError: the backbone has zero modes beyond the translations.
         """
-        if self.low_rank_update is None or self.reused.age >= MAX_REUSES:
+        reused = self.reused
+        if reused is None or self.low_rank_update is None or reused.age >= MAX_REUSES:
             return ReusedFactor(self.base_factor, 1)
-        return self.reused._replace(age=self.reused.age + 1)
+        return reused._replace(age=reused.age + 1)
 
     @property
     def unstable(self) -> bool:
@@ -213,8 +214,10 @@ class EquilibriumState:
         Raises:
             FloppyError: the backbone has zero modes beyond the translations.
         """
-        update = self.low_rank_update
-        if update is None or update.may_change_signs or self.reused.base.factor.unstable:
+        reused, update = self.reused, self.low_rank_update
+        if reused is None or update is None:
+            return self.factor.unstable
+        if update.may_change_signs or reused.base.factor.unstable:
             return self.factor.unstable
         return False
 

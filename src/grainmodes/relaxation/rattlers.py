@@ -45,4 +45,5 @@ def detach_rattlers(packing: Packing, normal: NormalLaw, is_rattler: NDArray[np.
 def _grain_stiffness(contacts: Contacts, normal: NormalLaw, n: int) -> NDArray[np.float64]:
     """Σ_j f_N'(ξ_ij) of every grain, (N,) in k_N d^(1/2)."""
     slope = normal_slope(normal, contacts.overlap)
-    return np.bincount(contacts.i, slope, n) + np.bincount(contacts.j, slope, n)
+    total = np.bincount(contacts.i, slope, n) + np.bincount(contacts.j, slope, n)
+    return np.asarray(total, np.float64)

@@ -22,7 +22,7 @@ from scipy.special import stdtrit
 from grainmodes.linalg.symmetric_shift import SymmetricShift
 from grainmodes.parameters.spectra import DENSE_COUNTS_UP_TO, DENSE_MODES_UP_TO, SpectrumChoices
 from grainmodes.spectrum import dense, slice_eigenpairs
-from grainmodes.spectrum.eigenproblem import Eigenproblem
+from grainmodes.spectrum.eigenproblem import Eigenproblem, Numbers
 from grainmodes.spectrum.inertia_counts import BinSums, count_below, rotational_sums
 from grainmodes.spectrum.measures import participation_ratio, rotational_fraction
 from grainmodes.spectrum.spectrum_slicing import CountedShift, SpectralSlice, shift_at_count
@@ -110,9 +110,9 @@ def _from_dense(
     return BinnedAverages(edges, count, int(n_below[0]), eigenproblem.size, **columns)
 
 
-def _weight(eigenproblem: Eigenproblem, vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+def _weight(eigenproblem: Eigenproblem, vectors: Numbers) -> NDArray[np.float64]:
     """|R|² of modes (kN, M) as (N, k, M)."""
-    return vectors.reshape(eigenproblem.size // eigenproblem.k, eigenproblem.k, -1) ** 2
+    return np.abs(vectors.reshape(eigenproblem.size // eigenproblem.k, eigenproblem.k, -1)) ** 2
 
 
 def _averages(

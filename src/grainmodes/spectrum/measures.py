@@ -65,11 +65,13 @@ class ModeMeasures(NamedTuple):
     @classmethod
     def concatenated(cls, parts: list[ModeMeasures]) -> ModeMeasures:
         """The modes of all parts, one part after the other."""
-        return cls(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
+        columns: list[NDArray] = [np.concatenate(column) for column in zip(*parts, strict=True)]
+        return cls(*columns)
 
     def negated(self) -> ModeMeasures:
         """The same modes as those of −J, in the opposite order: ascending stays ascending."""
-        modes = ModeMeasures(*(column[::-1] for column in self))
+        columns: list[NDArray] = [column[::-1] for column in self]
+        modes = ModeMeasures(*columns)
         return modes._replace(eigenvalue=-modes.eigenvalue)
 
 
