@@ -61,7 +61,7 @@ class Study:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=300,
+            timeout=900,
         )
         assert (run.returncode == 0) == succeeds, run.stdout
         return run.stdout

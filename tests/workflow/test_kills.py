@@ -60,15 +60,16 @@ def resume(study) -> subprocess.CompletedProcess:
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        timeout=300,
+        timeout=900,
     )
 
 
+@pytest.mark.slow
 def test_killed_runs_end_with_the_same_bytes(fresh, built):
     run = start(fresh)
     job = wait_for(lambda: jobs_of(run, "compress"), run)[0]
     job.kill()
-    assert run.wait(timeout=120) != 0
+    assert run.wait(timeout=600) != 0
 
     run = start(fresh)
     wait_for(lambda: jobs_of(run, "spectrum"), run)

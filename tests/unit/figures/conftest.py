@@ -1,6 +1,7 @@
 """Synthetic ensembles, large enough for every figure; each is built once and only read."""
 
 import pytest
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 import synthetic
 from grainmodes.ensemble import open_ensemble
@@ -39,3 +40,9 @@ def counted_ensemble(tmp_path_factory):
     path = synthetic.ensemble(folder, (8, 16), (0.83, 0.86, 0.90), kts, seeds=3, stages=stages)
     with open_ensemble(path) as dataset:
         yield dataset
+
+
+@pytest.fixture
+def without_layout(monkeypatch):
+    """Leave the axes where they are: making room for the labels takes half the time of a figure."""
+    monkeypatch.setattr(ConstrainedLayoutEngine, "execute", lambda self, figure: None)

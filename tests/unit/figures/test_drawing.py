@@ -16,6 +16,7 @@ from pictures import numbers_of
 OF_ENSEMBLES = [name for name, figure in FIGURES.items() if figure.source == "ensemble"]
 
 
+@pytest.mark.usefixtures("without_layout")
 @pytest.mark.parametrize("name", OF_ENSEMBLES)
 def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, whole, tmp_path):
     draw(name, whole, tmp_path / name, {})
@@ -40,6 +41,7 @@ def unjammed(tmp_path_factory):
     return synthetic.ensemble(folder, phis=(0.83,), kts=kts, seeds=1, stages=synthetic.WHOLE)
 
 
+@pytest.mark.usefixtures("without_layout")
 @pytest.mark.parametrize("name", OF_ENSEMBLES)
 def test_a_study_without_a_jammed_sample_still_has_its_figures(name, unjammed, tmp_path):
     draw(name, unjammed, tmp_path / name, {})

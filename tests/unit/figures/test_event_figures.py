@@ -117,6 +117,7 @@ def _fields(n: int, kt: float, draws) -> dict:
     }
 
 
+@pytest.mark.usefixtures("without_layout")
 @pytest.mark.parametrize("name", OF_EVENTS)
 def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, tmp_path):
     write_block(tmp_path / "one.nc", event_detail())
@@ -125,6 +126,7 @@ def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, tmp_path):
     assert len(numbers) == LENGTHS[name]
 
 
+@pytest.mark.usefixtures("without_layout")
 @pytest.mark.parametrize("sample", [{"jammed": False}, {"event": False, "kt": 0.0}], ids=str)
 @pytest.mark.parametrize("name", OF_EVENTS)
 def test_a_sample_without_an_event_still_has_its_figure(name, sample, tmp_path):
@@ -142,6 +144,7 @@ def test_fields_are_no_event_details(name, tmp_path):
         draw(name, [tmp_path / "one.nc"], tmp_path / name, {})
 
 
+@pytest.mark.usefixtures("without_layout")
 @pytest.mark.parametrize("name", [name for name in OF_EVENTS if name != "tangential_error"])
 def test_without_friction_a_figure_is_drawn_too(name, tmp_path):
     write_block(tmp_path / "one.nc", event_detail(kt=0.0))

@@ -66,6 +66,7 @@ def paths(tmp_path):
     return files
 
 
+@pytest.mark.usefixtures("without_layout")
 @pytest.mark.parametrize("name", OF_FIELDS)
 def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, paths, tmp_path):
     draw(name, paths, tmp_path / name, {})
@@ -73,6 +74,7 @@ def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, paths, tmp
     assert len(numbers) == (36 if name != "eigenvectors" else 2 * 3 * 36)
 
 
+@pytest.mark.usefixtures("without_layout")
 @pytest.mark.parametrize("name", OF_FIELDS)
 def test_a_sample_that_is_not_jammed_still_has_its_figure(name, tmp_path):
     write_block(tmp_path / "fields.nc", fields(jammed=False))

@@ -44,6 +44,7 @@ def path(release, tmp_path_factory):
     return path
 
 
+@pytest.mark.usefixtures("without_layout")
 @pytest.mark.parametrize("name", OF_RELEASES)
 def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, path, tmp_path):
     draw(name, [path], tmp_path / name, {})
@@ -52,6 +53,7 @@ def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, path, tmp_
     assert (picture.min(axis=2) < 0.5).mean() > 5e-3
 
 
+@pytest.mark.usefixtures("without_layout")
 @pytest.mark.parametrize("name", OF_RELEASES)
 def test_a_study_without_an_unstable_state_still_has_its_figures(name, tmp_path):
     pairs = complex_pairs_block()
