@@ -26,7 +26,7 @@ def interleaved(problem) -> np.ndarray:
 @pytest.mark.parametrize("kt", [1e-10, 1e-4, 10.0])
 @pytest.mark.parametrize("rank", [2, 10])
 def test_counts_change_where_the_exact_ones_do(kt, rank):
-    """To 1e-13 of an eigenvalue, however small: at k_T = 1e-10 the dense one is good to 1e-6."""
+    """To 1e-13 of an eigenvalue, where the dense one at k_T = 1e-10 has an error of 1e-6."""
     eigenproblem = Eigenproblem.from_packing(reference(MINIMAL[0])[1], elastic(MINIMAL[0], kt))
     shift, matrix = SymmetricShift(eigenproblem.matrix), eigenproblem.matrix.toarray()
     low, high = bracket(shift, dense.eigenvalues(eigenproblem)[rank])
@@ -76,7 +76,7 @@ def test_counts_equal_the_dense_ones_for_a_thousand_grains(phi, kt, backend):
 
 @pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("kt", [1e-10, 1.0])
-def test_solutions_solve(kt, backend):
+def test_solutions_satisfy_their_equation(kt, backend):
     eigenproblem = Eigenproblem.from_packing(quenched(256, 0.90), elastic("hertz", kt))
     shift = SymmetricShift(eigenproblem.matrix, backend).factor_at(0.3)
     right = np.random.default_rng(0).standard_normal((eigenproblem.size, 5))
@@ -98,7 +98,7 @@ def test_factorisations_agree():
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
-def test_two_factorisations_live_side_by_side(backend):
+def test_two_factorisations_do_not_disturb_each_other(backend):
     interaction = elastic("hertz", 1e-4)
     matrices = [Eigenproblem.from_packing(quenched(n, 0.90), interaction).matrix for n in (64, 256)]
     alone = [SymmetricShift(matrix, backend).factor_at(0.3).n_below for matrix in matrices]
@@ -135,7 +135,7 @@ def test_one_shift_per_row_counts_a_diagonal_exactly():
     assert shift.factor_at(np.array([1.5, 1.5, 3.5, 3.5])).n_below == 2
 
 
-def test_a_shift_on_an_eigenvalue_is_nudged_upwards():
+def test_a_shift_on_an_eigenvalue_is_increased():
     shift = SymmetricShift(sparse.csc_array(np.diag([1.0, 2.0, 3.0])))
     assert shift.factor_at(2.0).n_below == 2
 
@@ -152,7 +152,7 @@ def test_an_unknown_factorisation_is_refused():
 
 @pytest.mark.skipif("pardiso" not in BACKENDS, reason="needs pypardiso")
 @pytest.mark.parametrize(("code", "kind"), [(-2, MemoryError), (-4, ZeroPivotError)])
-def test_what_pardiso_runs_into_fails_a_sample_and_not_its_block(code, kind, monkeypatch):
+def test_errors_of_pardiso_are_errors_of_a_sample(code, kind, monkeypatch):
     from pypardiso.pardiso_wrapper import PyPardisoError
 
     def fail(*arguments):
@@ -166,7 +166,7 @@ def test_what_pardiso_runs_into_fails_a_sample_and_not_its_block(code, kind, mon
 
 
 @pytest.mark.skipif("pardiso" not in BACKENDS, reason="needs pypardiso")
-def test_mkl_is_looked_for_once(monkeypatch):
+def test_mkl_is_located_once(monkeypatch):
     from pypardiso import pardiso_wrapper
 
     monkeypatch.delenv("PYPARDISO_MKL_RT", raising=False)
@@ -177,7 +177,7 @@ def test_mkl_is_looked_for_once(monkeypatch):
     backends.make_factorisation(pattern, "pardiso")
 
 
-def test_pardiso_must_be_installed_to_be_asked_for(monkeypatch):
+def test_pardiso_must_be_installed_to_be_chosen(monkeypatch):
     monkeypatch.setattr(backends, "find_spec", lambda name: None)
     assert backends.choose_backend("auto", 10**6) == "superlu"
     with pytest.raises(ValueError, match="is not installed"):

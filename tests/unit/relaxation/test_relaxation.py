@@ -30,7 +30,7 @@ PATIENT = 1_000_000
 
 
 def drift(after: Packing, before: Packing) -> np.ndarray:
-    """How far every grain went, seen from all of them together, (N, 2) in the sheared frame."""
+    """Displacement of every grain relative to the mean, (N, 2) in the sheared frame."""
     y = np.mod((after.fraction[1] - before.fraction[1]) * 2.0**-64 + 0.5, 1.0) - 0.5
     x = np.mod((after.fraction[0] - before.fraction[0]) * 2.0**-64 + 0.5, 1.0) - 0.5
     step = np.stack([x + before.strain * y, y], axis=1) * before.box_length
@@ -98,7 +98,7 @@ def test_grains_that_touch_nothing_are_at_rest():
         np.testing.assert_array_equal(relaxed.packing.fraction, packing.fraction)
 
 
-def test_too_few_steps_are_told():
+def test_too_few_steps_are_reported():
     for relax in (relax_fire, relax_fire_newton):
         relaxed = relax(crowd(34), NORMAL["hertz"], 1e-14, 10)
         assert not relaxed.converged
@@ -108,7 +108,7 @@ def test_too_few_steps_are_told():
         assert relaxed.max_force > 1e-14
 
 
-def test_a_loose_balance_is_relative_to_the_mean_force():
+def test_a_rough_balance_is_relative_to_the_mean_force():
     relaxed = relax_fire_large_steps(crowd(35), NORMAL["hertz"], 1e-14, 1e-3, PATIENT)
     force = naive.net_force(ContactLaw("hertz"), naive_pairs(relaxed.packing), relaxed.packing.n)
     assert 1e-14 < np.abs(force).max() < 1e-4
@@ -118,7 +118,7 @@ def naive_pairs(packing: Packing):
     return naive.all_pairs(packing.position, packing.diameter, packing.box_length, packing.strain)
 
 
-def test_rattlers_are_moved_out_of_the_way():
+def test_rattlers_are_detached():
     packing = reference(ELASTIC[3])[1]
     touched = packing.position[0] + (packing.diameter[0] / 2 + 0.04) * np.array([0.6, 0.8])
     crowded = Packing.from_positions(
@@ -160,7 +160,7 @@ def test_newton_gives_up_on_grains_that_touch_nothing():
 
 
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
-def test_springs_slip_where_their_law_does_not_hold_them(law):
+def test_springs_slip_as_far_as_their_law_requires(law):
     packing = crowd(40, slip=4.0)
     before = packing.contacts
     after = apply_slip(packing, Interaction.from_law(law))
@@ -174,7 +174,7 @@ def test_springs_slip_where_their_law_does_not_hold_them(law):
 
 
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
-def test_a_small_motion_carries_the_springs(law):
+def test_a_small_displacement_advances_the_springs(law):
     packing = crowd(38, strain=0.3, slip=0.4)
     u = np.random.default_rng(1).normal(0.0, 1e-4, (packing.n, 3))
     contacts = packing.contacts

@@ -45,7 +45,7 @@ def test_the_cheapest_method_is_chosen_by_size():
 
 @cache
 def cases(kts=(1.0,), seeds=1):
-    """Bins of many modes, with what is stated and what is true: (stated mean, error, truth)."""
+    """Bins of many modes: rows of (estimated mean, its error, exact mean), by quantity."""
     found = {"psi": [], "p": []}
     for kt in kts:
         for seed in range(seeds):
@@ -85,8 +85,8 @@ def test_estimates_lie_within_four_errors_and_mostly_within_two():
         assert off.max() < 4.0 and np.mean(off < 2.0) >= 0.6, (name, off)
 
 
-def test_errors_are_no_larger_than_they_must_be():
-    """An error bar of everything would hold everything: the typical one is a few per cent."""
+def test_errors_are_not_unnecessarily_large():
+    """The typical error is a few per cent: larger ones would pass every test of coverage."""
     rows = cases()
     assert np.median(rows["psi"][:, 1]) < 0.05
     assert np.median(rows["p"][:, 1] / rows["p"][:, 0]) < 0.15
@@ -94,7 +94,7 @@ def test_errors_are_no_larger_than_they_must_be():
 
 @pytest.mark.parametrize("cells_per_bin", [1, 2, 3])
 def test_fractions_that_are_0_or_1_are_counted_exactly(cells_per_bin):
-    """At k_T = 1e-8 a mode is a rotation or none: every crossing of the first leg is its own."""
+    """At k_T = 1e-8 every mode is either a rotation or a translation, ψ^R = 1 or 0."""
     eigenproblem = Eigenproblem.from_packing(quenched(256, 0.90), elastic("hertz", 1e-8))
     shift, edges = SymmetricShift(eigenproblem.matrix), np.array([1e-6, 1e-3, 0.3, 0.8, 1.5])
     below = count_below(shift, edges)

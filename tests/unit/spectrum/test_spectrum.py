@@ -115,7 +115,7 @@ def test_eigenvalues_alone_are_the_same_and_nothing_else():
     assert nothing == (None,) * 4
 
 
-def test_rattlers_are_left_out_unless_asked_for():
+def test_rattlers_are_left_out_unless_requested():
     position = [[1.0, 1.0], [1.95, 1.0], [1.475, 1.8], [5.0, 5.0], [5.0, 2.0]]
     packing = Packing.from_positions(position, np.ones(5), 8.0)
     interaction = elastic("hertz", 0.5)

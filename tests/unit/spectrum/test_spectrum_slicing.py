@@ -1,4 +1,4 @@
-"""Eigenpairs in windows: none missing, none twice, each by its residual and against LAPACK."""
+"""Eigenpairs in slices: none missing, none twice, each by its residual and against LAPACK."""
 
 import os
 from dataclasses import replace
@@ -24,7 +24,7 @@ FLOOR = 1e-14
 
 
 @pytest.mark.parametrize(("kt", "backend"), kt_and_backend(1e-8, 1e-4, 1.0, 10.0))
-def test_windows_hold_every_mode_once(kt, backend):
+def test_slices_hold_every_mode_once(kt, backend):
     eigenproblem = Eigenproblem.from_packing(quenched(144, 0.90), elastic("hertz", kt))
     sliced = full_spectrum(eigenproblem, choices=SpectrumChoices("slicing", backend))
     whole = full_spectrum(eigenproblem, choices=SpectrumChoices("dense"))
@@ -45,7 +45,7 @@ def isolated(values: np.ndarray) -> np.ndarray:
     return (nearest > 1e-5 * np.abs(values)) & (nearest > 1e-9 * values.max()) & (values > FLOOR)
 
 
-def test_eigenvectors_of_all_windows_are_orthonormal():
+def test_eigenvectors_of_all_slices_are_orthonormal():
     eigenproblem = Eigenproblem.from_packing(quenched(256, 0.90), elastic("hertz", 1e-4))
     shift = SymmetricShift(eigenproblem.matrix)
     slices = slice_spectrum(shift, FLOOR, eigenproblem.bound)
@@ -56,7 +56,7 @@ def test_eigenvectors_of_all_windows_are_orthonormal():
 
 @pytest.mark.parametrize("kt", [1e-10, 1e-8])
 def test_small_eigenvalues_keep_their_relative_accuracy(kt):
-    """Each lies between exact counts at λ (1 ± 1e-10), where LAPACK is good to 1e-6 at 1e-10."""
+    """Exact counts at λ (1 ± 1e-10) differ by one; at k_T = 1e-10 LAPACK has an error of 1e-6."""
     eigenproblem = Eigenproblem.from_packing(reference(MINIMAL[0])[1], elastic(MINIMAL[0], kt))
     values = full_spectrum(eigenproblem, choices=SpectrumChoices("slicing")).eigenvalue
     for rank in (2, 9):
@@ -67,7 +67,7 @@ def test_small_eigenvalues_keep_their_relative_accuracy(kt):
         ]
 
 
-def test_windows_do_not_depend_on_the_number_of_processes():
+def test_slices_do_not_depend_on_the_number_of_processes():
     eigenproblem = Eigenproblem.from_packing(quenched(256, 0.90), elastic("hertz", 1e-4))
     choices = SpectrumChoices("slicing")
     one, two = (full_spectrum(eigenproblem, choices=choices, processes=p) for p in (1, 2))
@@ -91,13 +91,13 @@ def test_a_degenerate_eigenvalue_is_found_as_often_as_it_is_counted():
     np.testing.assert_allclose(found, values, rtol=1e-12)
 
 
-def test_a_window_that_promises_too_much_is_refused():
+def test_a_slice_with_too_high_a_count_is_refused():
     shift = SymmetricShift(sparse.csc_array(np.diag(np.arange(1.0, 40.0))))
     with pytest.raises(SliceError, match="expected 7 eigenpairs"):
         eigenpairs_in_slice(shift, SpectralSlice(1.5, 1.5 + 1e-13, 7))
 
 
-def test_nearest_are_the_nearest():
+def test_nearest_eigenpairs_are_those_of_lapack():
     eigenproblem = Eigenproblem.from_packing(quenched(256, 0.90), elastic("hertz", 1e-4))
     values = dense.eigenvalues(eigenproblem)
     found = nearest_eigenpairs(SymmetricShift(eigenproblem.matrix), 0.31, 10)
