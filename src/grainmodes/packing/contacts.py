@@ -1,12 +1,15 @@
-"""What touches what in a packing, what the springs between remember, and which grains are rattlers.
+"""Touching pairs of a packing and the states of the springs between them.
 
-| symbol            | name                    | shape, type          | unit    |
-| ----------------- | ----------------------- | -------------------- | ------- |
-| n_ij = r_ij/r_ij  | normal                  | (C, 2) float64       | 1       |
-| r_ij, ξ_ij        | distance, overlap       | (C,) float64         | d       |
-| s_ij, ξ_T,ij      | spring_state | (C,) float64 or None | d       |
+| symbol            | name              | shape, type          | unit                |
+| ----------------- | ----------------- | -------------------- | ------------------- |
+| i > j             | i, j              | (C,) int32           | 1                   |
+| n_ij = r_ij/r_ij  | normal            | (C, 2) float64       | 1                   |
+| r_ij, ξ_ij        | distance, overlap | (C,) float64         | d                   |
+| s_ij, ξ_T,ij      | spring_state      | (C,) float64 or None | d                   |
+| h_ij              | spring_state      | (C,) float64 or None | k_N d^(3/2) (Hertz) |
 
-Friction that was never loaded is `None`: it is neither stored nor computed.
+Each law states whether its springs remember a displacement s or a force h (`kernels.laws`). If
+friction was never loaded, the spring states are None: they are neither stored nor computed.
 """
 
 from __future__ import annotations
@@ -34,34 +37,34 @@ class Contacts:
 
     @property
     def tangent(self) -> np.ndarray:
-        """t = (n_y, −n_x), shape (C, 2)."""
+        """t = (n_y, −n_x), (C, 2) float64."""
         return np.stack([self.normal[:, 1], -self.normal[:, 0]], axis=1)
 
     @property
     def displacement(self) -> np.ndarray:
-        """s of every contact, zero where friction was never loaded; shape (C,)."""
+        """Spring state of every contact, (C,) float64; 0 where friction was never loaded."""
         s = self.spring_state
         return np.zeros(len(self.i)) if s is None else s
 
     def among(self, keep: np.ndarray) -> Contacts:
-        """The contacts between the grains of a (N,) mask, in their new numbers."""
+        """The contacts between the grains of a mask (N,) bool, in their new numbers."""
         if keep.all():
             return self
-        held, i, j = _among(keep, self.i, self.j)
+        between, i, j = _among(keep, self.i, self.j)
         s = self.spring_state
         return Contacts(
             i,
             j,
-            self.normal[held],
-            self.distance[held],
-            self.overlap[held],
-            None if s is None else s[held],
+            self.normal[between],
+            self.distance[between],
+            self.overlap[between],
+            None if s is None else s[between],
         )
 
 
 @dataclass(frozen=True)
 class History:
-    """Contacts with their tangential displacement s: pairs i > j sorted by (i, j)."""
+    """Spring states of contacts: pairs i > j (C,) int32, sorted by (i, j), states (C,) float64."""
 
     i: np.ndarray
     j: np.ndarray
@@ -74,15 +77,18 @@ class History:
 
     @classmethod
     def from_pairs(cls, i: np.ndarray, j: np.ndarray, spring_state: np.ndarray) -> History:
-        """The history of pairs in any order; s does not change sign when i and j are swapped."""
+        """The history of pairs in any order, all arrays (C,).
+
+        A spring state does not change its sign when i and j are exchanged.
+        """
         high, low = np.maximum(i, j), np.minimum(i, j)
         order = np.lexsort((low, high))
         return cls(high[order], low[order], np.asarray(spring_state)[order])
 
     def among(self, keep: np.ndarray) -> History:
-        """The contacts between the grains of a (N,) mask, in their new numbers."""
-        held, i, j = _among(keep, self.i, self.j)
-        return History(i, j, self.spring_state[held])
+        """The springs between the grains of a mask (N,) bool, in their new numbers."""
+        between, i, j = _among(keep, self.i, self.j)
+        return History(i, j, self.spring_state[between])
 
 
 def pair_key(i: np.ndarray, j: np.ndarray) -> np.ndarray:
@@ -103,7 +109,7 @@ def contact_changes(before: Contacts, after: Contacts) -> int:
 def _among(
     keep: np.ndarray, i: np.ndarray, j: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Which pairs stand between the grains of a mask, and these with the grains renumbered."""
-    held = keep[i] & keep[j]
+    """Which pairs lie between the grains of a mask, and i and j of these in the new numbers."""
+    between = keep[i] & keep[j]
     number = np.cumsum(keep, dtype=np.int32) - 1
-    return held, number[i[held]], number[j[held]]
+    return between, number[i[between]], number[j[between]]

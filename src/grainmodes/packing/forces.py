@@ -1,9 +1,10 @@
-"""Net forces, stress and pressure of a packing from its contacts.
+"""Net forces, stress and energy of a packing.
 
     F_i = Σ_j f_ij,   scaled torque 2 T_i / d_i = Σ_j f_T,ij          A (3)–(5), J of physics: F̃_i
     σ_αβ = −(1/L²) Σ_{i<j} f^α_ij r^β_ij                              A (14)
 
-Frictionless interactions give (N, 2) arrays: torque does not exist.
+Units are those of Hertzian grains; for harmonic grains forces are in k_N d and stresses in k_N.
+Without friction torque does not exist: forces on N grains are then (N, 2), and (N, 3) otherwise.
 """
 
 from __future__ import annotations
@@ -19,16 +20,19 @@ from grainmodes.packing.contacts import Contacts
 from grainmodes.packing.state import Packing
 
 SIGNS = np.array([-1.0, -1.0, 1.0])
-"""How (x, y, ℓ) of grain j enter the relative coordinates and the force."""
+"""Signs with which (x, y, ℓ) of grain j enter relative coordinates, and forces act on it."""
 
 
 def is_frictionless(interaction: Interaction) -> bool:
-    """Whether rotation, torque and history exist."""
+    """Whether the interaction has no tangential part."""
     return isinstance(interaction.tangential, Frictionless)
 
 
 def forces_on_i(contacts: Contacts, interaction: Interaction) -> np.ndarray:
-    """Force of every contact on its grain i, k_N d^(3/2): (C, 2), or (C, 3) with f_T last."""
+    """(f_x, f_y, f_T) of every contact on its grain i, (C, 3) in k_N d^(3/2): A (3), (7), (8).
+
+    Without friction (f_x, f_y), (C, 2).
+    """
     if is_frictionless(interaction):
         return normal_forces(interaction, contacts.normal, contacts.overlap)
     s = contacts.spring_state
@@ -36,7 +40,7 @@ def forces_on_i(contacts: Contacts, interaction: Interaction) -> np.ndarray:
 
 
 def tangential_forces(interaction: Interaction, overlap: np.ndarray, s: np.ndarray) -> np.ndarray:
-    """f_T of contacts with these overlaps and tangential displacements, (C,)."""
+    """f_T of contacts with these overlaps in d and spring states, all (C,), in k_N d^(3/2)."""
     along_x = np.tile([1.0, 0.0], (len(s), 1))
     return contact_forces(interaction, along_x, overlap, s)[:, 2]
 
@@ -44,25 +48,34 @@ def tangential_forces(interaction: Interaction, overlap: np.ndarray, s: np.ndarr
 def sliding(contacts: Contacts, interaction: Interaction) -> np.ndarray:
     """Contacts at Coulomb's threshold, |s| ≥ s* = μ (k_N/k_T) ξ or |h| ≥ μ f_N: (C,) bool; C (8).
 
-    None without friction, or with springs that never slip.
+    All are False without friction, or with springs that never slip.
     """
     slides_at = slip_thresholds(interaction, contacts.overlap)
     return np.abs(contacts.displacement) >= SLIDING_FRACTION * slides_at
 
 
 def net_force(packing: Packing, interaction: Interaction) -> np.ndarray:
-    """F̃ on every grain: (N, 2) frictionless, else (N, 3) = (F_x, F_y, 2 T/d), in k_N d^(3/2)."""
+    """F̃ = (F_x, F_y, 2 T/d) on every grain, (N, 3) in k_N d^(3/2): A (3)–(5).
+
+    Without friction (F_x, F_y), (N, 2).
+
+    Raises:
+        PackingError: two grains lie at the same place.
+    """
     contacts = packing.contacts
     return sum_over_contacts(contacts, forces_on_i(contacts, interaction), packing.n)
 
 
 def sum_over_contacts(contacts: Contacts, forces: np.ndarray, n: int) -> np.ndarray:
-    """What forces (C, k) on the grains i of all contacts do to every grain, (N, k)."""
+    """Sum over the contacts of every grain, (N, k), of forces (C, k) on their grains i.
+
+    Grain j of a contact receives the force times `SIGNS`.
+    """
     return sum_on_grains(forces, SIGNS[: forces.shape[1]], contacts.i, contacts.j, n)
 
 
 def max_force_and_torque(force: np.ndarray) -> tuple[float, float]:
-    """(max |F|, max scaled |torque|) over grains and components; torque is 0 without friction."""
+    """(max|F|, max|2 T/d|) over the components of net forces (N, k); (…, 0) without friction."""
     if len(force) == 0:
         return 0.0, 0.0
     torque = float(np.abs(force[:, 2]).max()) if force.shape[1] == 3 else 0.0
@@ -70,7 +83,11 @@ def max_force_and_torque(force: np.ndarray) -> tuple[float, float]:
 
 
 def stress(packing: Packing, interaction: Interaction) -> np.ndarray:
-    """σ_αβ of a packing, (2, 2) in k_N d^(1/2): A (14)."""
+    """σ_αβ of a packing, (2, 2) in k_N d^(1/2): A (14).
+
+    Raises:
+        PackingError: two grains lie at the same place.
+    """
     contacts = packing.contacts
     branch = contacts.normal * contacts.distance[:, None]
     forces = forces_on_i(contacts, interaction)[:, :2]

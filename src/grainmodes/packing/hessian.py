@@ -8,12 +8,13 @@
 | tangent   | f_N'(ξ)  | −∂f_T/∂s    | the slopes of the contact law        |
 | printed   | k_N      | k_T         | (H2) to the letter                   |
 
-With the slopes H is J where every s = 0. Where s ≠ 0, J holds besides −∂f_T/∂ξ nᵀ and the rotation
-of the tangent, −(f_T/r) n tᵀ; H leaves both out and stays symmetric. The printed constants are the
-slopes of harmonic grains; those of Hertzian grains are softer by 3/2 ξ^(1/2) and ξ^(1/2).
+With the slopes, H equals J where every s = 0. Where s ≠ 0, J also contains terms with ∂f_T/∂ξ and
+the rotation of the tangent, −(f_T/r) n tᵀ; H leaves both out and stays symmetric. The printed
+constants are the slopes of harmonic grains; those of Hertzian grains are smaller by the factors
+3/2 ξ^(1/2) and ξ^(1/2).
 
-Printed is δt = δr⃗·t − (δℓ_i + δℓ_j), for rotations counted the other way round: ℓ → −ℓ, and no
-eigenvalue knows. Here ℓ is that of `jacobian`, so that H and J can be compared entry by entry.
+A prints δt = δr⃗·t − (δℓ_i + δℓ_j), for rotations in the other sense, ℓ → −ℓ, which changes no
+eigenvalue. Here ℓ is that of `jacobian`, so that H and J can be compared entry by entry.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ from grainmodes.packing.jacobian import assemble, stiffness_of
 from grainmodes.packing.state import Packing
 
 STIFFNESSES = ("tangent", "printed")
-"""Which K_N and K_T stand in U_eff."""
+"""The two choices of K_N and K_T in U_eff."""
 
 
 def effective_hessian(
@@ -37,10 +38,12 @@ def effective_hessian(
 ) -> sparse.csc_array:
     """H of a packing: A (H1), (kN, kN) with k = 3, or 2 without friction, in k_N d^(1/2).
 
-    With `stiffness` = "printed", K_N and K_T are the numbers k_N and k_T.
+    Args:
+        stiffness: "tangent", K_N and K_T are slopes; "printed", the numbers k_N and k_T.
 
     Raises:
         ValueError: an unknown `stiffness`.
+        PackingError: two grains lie at the same place.
     """
     if stiffness not in STIFFNESSES:
         raise ValueError(f"stiffness: expected one of {', '.join(STIFFNESSES)}, got {stiffness!r}")

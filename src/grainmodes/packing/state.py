@@ -1,4 +1,4 @@
-"""The state of a packing: where the grains are; what touches then follows (`contacts`).
+"""The state of a packing: its grains and their places, from which the contacts follow.
 
 | symbol            | name                    | shape, type          | unit    |
 | ----------------- | ----------------------- | -------------------- | ------- |
@@ -9,7 +9,8 @@
 | L, γ              | box_length, strain      | float                | d, 1    |
 
 A packing is never changed in place. Compression changes L, affine shear changes γ, and neither
-touches the fractions.
+changes the fractions. The contacts are computed when they are first asked for and then kept, so a
+list of many packings should hold them `without_contacts`: 48 bytes per contact.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ class Packing:
 
     @classmethod
     def from_positions(cls, position, diameter, box_length, strain=0.0, mass=None, history=None):
-        """A packing from absolute positions (N, 2) in d; mass defaults to d_i² (A, B).
+        """A packing from absolute positions (N, 2) in d; the masses (N,) default to d_i² (A, B).
 
         Raises:
             PackingError: shapes disagree, a number is not finite, a diameter or L not positive.
@@ -75,7 +76,7 @@ class Packing:
         )
 
     def checked(self) -> Packing:
-        """This packing.
+        """This packing, after its numbers have been checked.
 
         Raises:
             PackingError: a number is not finite, a diameter or mass not positive, L too small.
@@ -142,7 +143,7 @@ class Packing:
         return replace(self, strain=float(strain))
 
     def displaced(self, displacement: np.ndarray) -> Packing:
-        """Grains moved by (N, 2) in d, any number of boxes far; the rotation is left alone.
+        """The packing with its grains moved by (N, 2) in d, any number of boxes far; ℓ stays.
 
         Raises:
             PackingError: a displacement is NaN or infinite.
@@ -178,10 +179,10 @@ class Packing:
 
 
 def nonaffine_motion(before: Packing, after: Packing) -> np.ndarray:
-    """(Δr̊, Δℓ̊) of every grain between two states of a packing, exact in the fractions; (N, k) in d.
+    """(Δr̊, Δℓ̊) of every grain between two states of a packing, (N, k) in d: A (10), (11).
 
-    r = L (s_x + γ s_y, s_y), of which the change of γ alone is the affine part. Without rotation
-    k is 2.
+    r = L (s_x + γ s_y, s_y), of which the change of γ alone is the affine part. The difference of
+    the fractions is exact. Without rotation k is 2.
     """
     x, y = (after.fraction - before.fraction) * (FRACTION_UNIT * before.box_length)
     moved = [x + after.strain * y, y]
@@ -192,7 +193,9 @@ def nonaffine_motion(before: Packing, after: Packing) -> np.ndarray:
 
 
 def find_contacts(packing: Packing) -> Contacts:
-    """All touching pairs, r < (d_i + d_j)/2, with s from the history where there is one.
+    """All touching pairs, r < (d_i + d_j)/2, with their spring states if there is a history.
+
+    Use `Packing.contacts`, which calls this once.
 
     Raises:
         PackingError: two grains lie at the same place.
@@ -235,10 +238,10 @@ def backbone(packing: Packing, threshold: int) -> Packing:
 
 
 def on_all_grains(field: np.ndarray, is_rattler: np.ndarray) -> np.ndarray:
-    """A field (N', k) of the backbone as one of all N grains, (N, 3): NaN where there is none.
+    """A field (N', k) of the backbone as one of all N grains, (N, 3) float64; NaN elsewhere.
 
     Args:
-        is_rattler: (N,) bool; the N' others carry the field.
+        is_rattler: (N,) bool; the field is that of the N' other grains.
     """
     whole = np.full((len(is_rattler), 3), np.nan)
     whole[~is_rattler, : field.shape[1]] = field

@@ -1,0 +1,1 @@
+"""Linear response of a packing in force balance: moduli, sums over modes, fields, stability."""

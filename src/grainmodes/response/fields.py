@@ -1,4 +1,4 @@
-"""The fields of a packing: how its grains answer a step strain, and single eigenvectors.
+"""Fields of a packing: the displacement of its grains under a step strain, and single modes.
 
     r_i(Δγ) − r_i(0) = Δγ (y_i − L/2, 0) + Δr̊_i,    ℓ_i(Δγ) − ℓ_i(0) = Δℓ̊_i        A (10), (11)
     u_i = (dr̊_i/dγ, dℓ̊_i/dγ)                                                     A (12), (13), (33)
@@ -7,9 +7,9 @@ u is found in three ways that must agree: the direct solve of `moduli`, the sum 
 A (38), and relaxed step strains (`protocols.shear.step_strain_field`). Eigenvectors,
 J R_n = λ_n R_n with λ_n = ω_n², are those of A (21), (48).
 
-A field is (N, 3), components (x, y, ℓ), on all grains: NaN for the rattlers, which are taken out
-before anything is solved, and NaN for ℓ where friction does not exist. The mean of x and of y is
-zero: a translation of all grains is no answer to strain.
+A field is (N, 3) float64, components (x, y, ℓ), on all grains: NaN for the rattlers, which are
+removed before anything is solved, and NaN for ℓ where friction does not exist. The mean of x and of
+y is zero: a translation of all grains is no response to strain.
 
 | symbol  | name                       |   | symbol | name                        |
 | ------- | -------------------------- | - | ------ | --------------------------- |
@@ -74,7 +74,7 @@ def mode_sum_field(packing: Packing, interaction: Interaction, threshold: int = 
 def nearest_modes(
     packing: Packing, interaction: Interaction, frequencies: tuple[float, ...], threshold: int = 2
 ) -> NearestModes:
-    """The mode whose λ lies nearest to ω², for each ω in `frequencies` (1/t_0); no translation.
+    """The mode whose λ is nearest to ω², for each ω in `frequencies` (1/t_0), except translations.
 
     Raises:
         ValueError: J is not symmetric.
@@ -84,18 +84,22 @@ def nearest_modes(
             "expected a symmetric Jacobian for single modes, got one with springs (s other than 0)"
         )
     is_rattler = rattlers(packing, threshold)
-    of = Eigenproblem.from_packing(packing, interaction, threshold)
-    pairs = [_nearest(of, frequency**2) for frequency in frequencies]
+    eigenproblem = Eigenproblem.from_packing(packing, interaction, threshold)
+    pairs = [_nearest(eigenproblem, frequency**2) for frequency in frequencies]
     values, vectors = np.array([value for value, _ in pairs]), np.array([r for _, r in pairs])
     return NearestModes(
         np.sqrt(np.abs(values)),
-        np.stack([on_all_grains(vector.reshape(-1, of.k), is_rattler) for vector in vectors]),
-        np.linalg.norm(of.matrix @ vectors.T - vectors.T * values, axis=0),
+        np.stack(
+            [on_all_grains(vector.reshape(-1, eigenproblem.k), is_rattler) for vector in vectors]
+        ),
+        np.linalg.norm(eigenproblem.matrix @ vectors.T - vectors.T * values, axis=0),
     )
 
 
-def _nearest(of: Eigenproblem, shift: float) -> tuple[float, np.ndarray]:
-    """The eigenpair nearest a shift that is no translation; its largest component is positive."""
-    (value,), vectors = slice_eigenpairs.nearest_eigenpairs(of.symmetric_shift(), shift, 1)
+def _nearest(eigenproblem: Eigenproblem, shift: float) -> tuple[float, np.ndarray]:
+    """The eigenpair nearest to a shift, without translations; its largest component is positive."""
+    (value,), vectors = slice_eigenpairs.nearest_eigenpairs(
+        eigenproblem.symmetric_shift(), shift, 1
+    )
     vector = vectors[:, 0]
     return value, vector * np.sign(vector[np.argmax(np.abs(vector))])

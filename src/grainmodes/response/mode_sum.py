@@ -3,10 +3,10 @@
     u = Σ'_n (R_n · Σa) R_n / λ_n
     g_NA = −(1/L²) Σ'_n (R_n · Σa_loaded) (R_n · Σa) / λ_n
 
-Σ' leaves out the two translations. The second line is the first put into A (44): the stress that u
-relaxes is that of the loaded affine step (`rigidity`), since K is symmetric. It needs two
-projections of every mode and no mode itself. The sum must equal the direct solve; it is here
-because it says which modes carry the response.
+Σ' leaves out the two translations. The second line follows from the first and A (44): the stress
+that u relaxes is that of the loaded affine step (`moduli`), since K is symmetric. It needs two
+projections of every mode and not the modes themselves. The sum must equal the direct solution; it
+shows which modes carry the response.
 """
 
 from __future__ import annotations
@@ -26,12 +26,17 @@ def mode_sum(
     threshold: int = 2,
     loaded: bool = False,
 ) -> Moduli:
-    """g of a packing, and its non-affine field, from all modes of its J without rattlers.
+    """g of a packing, and its non-affine field, from all modes of J of its backbone: A (38), (44).
+
+    Args:
+        spectrum: of the packing without its rattlers, with modes (M, M).
+        threshold: a grain with at most so many contacts is a rattler.
+        loaded: whether the affine step loads the tangential springs.
 
     Raises:
         ValueError: the Jacobian is not symmetric.
     """
-    step = _step(packing, interaction, threshold, loaded)
+    step = _affine_step(packing, interaction, threshold, loaded)
     elastic = elastic_modes(spectrum.eigenvalue)
     assert spectrum.modes is not None  # the method is "dense"
     modes = spectrum.modes[:, elastic]
@@ -40,9 +45,11 @@ def mode_sum(
 
 
 class ModeRigidity:
-    """What each mode gives to the unloaded g_NA of a packing without its rattlers.
+    """Contribution of each mode to the unloaded g_NA of a packing without its rattlers.
 
-    `forces` (M, 2) is what the spectrum has to project its modes on.
+    Attributes:
+        forces: (M, 2) in k_N d^(3/2), on which the spectrum has to project its modes: Σa of the
+            unloaded step and of the loaded one.
 
     Raises:
         ValueError: the Jacobian is not symmetric.
@@ -50,7 +57,7 @@ class ModeRigidity:
 
     def __init__(self, packing: Packing, interaction: Interaction, threshold: int = 2):
         self._unloaded, loaded = (
-            _step(packing, interaction, threshold, how) for how in (False, True)
+            _affine_step(packing, interaction, threshold, how) for how in (False, True)
         )
         self.forces = np.stack([self._unloaded.force.ravel(), loaded.force.ravel()], axis=1)
         self._area = packing.box_length**2
@@ -61,7 +68,7 @@ class ModeRigidity:
         return self._unloaded.moduli(np.zeros(len(self.forces))).g_affine
 
     def contributions(self, spectrum: FullSpectrum) -> np.ndarray:
-        """g_NA of every mode (M,), k_N d^(1/2); 0 for the translations.
+        """Contribution of every mode to g_NA, (M,) in k_N d^(1/2); 0 for the translations.
 
         Raises:
             ArithmeticError: more eigenvalues are 0 than the two of the translations.
@@ -77,11 +84,13 @@ class ModeRigidity:
 
 
 def elastic_modes(eigenvalue: np.ndarray) -> np.ndarray:
-    """Indices of all modes but the two translations, those of the smallest |λ|."""
+    """Indices of all modes except the two translations, those of the smallest |λ|; (M − 2,)."""
     return np.sort(np.argsort(np.abs(eigenvalue), kind="stable")[2:])
 
 
-def _step(packing: Packing, interaction: Interaction, threshold: int, loaded: bool) -> AffineStep:
+def _affine_step(
+    packing: Packing, interaction: Interaction, threshold: int, loaded: bool
+) -> AffineStep:
     if packing.history is not None:
         raise ValueError("expected a symmetric Jacobian for a sum over modes, got one with springs")
     return AffineStep(backbone(packing, threshold), interaction, loaded)

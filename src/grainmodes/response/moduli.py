@@ -1,4 +1,4 @@
-"""Rigidity from one sparse solve: A, Sec. III B, with the signs and terms of the forces.
+"""Rigidity from one sparse solution: A, Sec. III B, with the signs and terms of the forces.
 
     g = dσ_xy/dγ,   σ_αβ = −(1/L²) Σ f^α r^β                              A (14)–(16)
     J u = Σ a        force balance after an affine step A = (r_y, 0)       A (31), (34)
@@ -6,10 +6,10 @@
 
 with δu the relative displacement of the contact, (u_i − u_j, ℓ_i + ℓ_j). The affine force rate is
 
-    loaded     a = K (A, 0)           the springs feel the affine motion, as under continuous shear
-    unloaded   a = K (A, −t·A)        they do not (A's step strain): ds = t·A + dℓ = 0
+    loaded     a = K (A, 0)           the affine motion loads the springs, as in continuous shear
+    unloaded   a = K (A, −t·A)        it does not (A's step strain): ds = t·A + dℓ = 0
 
-so that the two differ only in which rotation accompanies the affine step. The f_α A_β term makes
+so that the two differ only in the rotation that accompanies the affine step. The f_α A_β term makes
 g_yx differ from g_xy by σ_yy; B (43) drops it. Printed A (36)–(37), (40), (44)–(46) do not follow
 from the forces: J̃ breaks translation invariance and the sign of g_A comes out negative.
 
@@ -35,7 +35,7 @@ from grainmodes.packing.state import Packing, backbone
 
 @dataclass(frozen=True)
 class Moduli:
-    """dσ_αβ/dγ, (2, 2) in k_N d^(1/2), and the non-affine field per unit strain, (N, k) in d."""
+    """Both parts of dσ_αβ/dγ, (2, 2) in k_N d^(1/2), and the non-affine field u, (N, k) in d."""
 
     affine: np.ndarray
     nonaffine: np.ndarray
@@ -59,19 +59,23 @@ class Moduli:
 
 @dataclass(frozen=True)
 class Rigidity:
-    """Moduli under the two protocols; the same object twice where friction does not exist."""
+    """Moduli of both steps; the same object twice where friction does not exist."""
 
     unloaded: Moduli
     loaded: Moduli
 
 
 def rigidity(packing: Packing, interaction: Interaction, threshold: int = 2) -> Rigidity:
-    """g of a packing in force balance, without its rattlers (at most `threshold` contacts).
+    """g of a packing in force balance, without its rattlers: A (31), (39)–(41).
 
-    The displacement field refers to the packing without rattlers.
+    The field u is that of the packing without rattlers.
+
+    Args:
+        threshold: a grain with at most so many contacts is a rattler.
 
     Raises:
         FloppyError: the backbone has zero modes beyond the translations.
+        PackingError: two grains lie at the same place.
     """
     rigid = backbone(packing, threshold)
     contacts = rigid.contacts
@@ -86,9 +90,14 @@ def rigidity(packing: Packing, interaction: Interaction, threshold: int = 2) -> 
 
 
 class AffineStep:
-    """An affine step of a packing without rattlers: what it loads, and what relaxing it gives.
+    """An affine step of a packing without rattlers: the forces it causes, and its moduli.
 
-    `force` is Σ a on every grain, (N, k) in k_N d^(3/2) per unit strain.
+    Attributes:
+        stiffness: K of every contact, (C, k, k) in k_N d^(1/2).
+        force: Σ a on every grain, (N, k) in k_N d^(3/2) per unit strain.
+
+    Args:
+        loaded: whether the affine step loads the tangential springs.
     """
 
     def __init__(self, packing: Packing, interaction: Interaction, loaded: bool):
@@ -100,22 +109,22 @@ class AffineStep:
         self.force = sum_over_contacts(contacts, self._rate, packing.n)
 
     def moduli(self, nonaffine: np.ndarray) -> Moduli:
-        """Both parts of dσ/dγ for a non-affine field u that solves J u = `force`, any shape."""
+        """Both parts of dσ/dγ for the u with J u = `force`, (N, k) or (kN,) in d: A (39)–(41)."""
         contacts, area = self._packing.contacts, self._packing.box_length**2
         u = nonaffine.reshape(self._packing.n, -1).copy()
         u[:, :2] -= u[:, :2].mean(axis=0)
         branch = contacts.normal * contacts.distance[:, None]
         response = np.einsum("cab,cb->ca", self.stiffness, relative_displacement(contacts, u))
-        carried = forces_on_i(contacts, self._interaction)[:, :2].T @ self._affine[:, :2]
+        prestress = forces_on_i(contacts, self._interaction)[:, :2].T @ self._affine[:, :2]
         return Moduli(
-            -(self._rate[:, :2].T @ branch + carried) / area,
+            -(self._rate[:, :2].T @ branch + prestress) / area,
             -(response[:, :2].T @ branch) / area,
             u,
         )
 
 
 def affine_displacement(contacts: Contacts, k: int, loaded: bool) -> np.ndarray:
-    """Relative displacement of every contact per unit affine strain, (C, k): (r_y, 0[, dℓ])."""
+    """(r_y, 0, dℓ) of every contact per unit affine strain, (C, k) in d; without friction k = 2."""
     affine = np.zeros((len(contacts.i), k))
     affine[:, 0] = contacts.normal[:, 1] * contacts.distance
     if k == 3 and not loaded:
@@ -124,5 +133,5 @@ def affine_displacement(contacts: Contacts, k: int, loaded: bool) -> np.ndarray:
 
 
 def relative_displacement(contacts: Contacts, u: np.ndarray) -> np.ndarray:
-    """δu = (u_i − u_j, ℓ_i + ℓ_j) of every contact from a field u (N, k)."""
+    """δu = (u_i − u_j, ℓ_i + ℓ_j) of every contact, (C, k), for a field u (N, k)."""
     return u[contacts.i] + SIGNS[: u.shape[1]] * u[contacts.j]

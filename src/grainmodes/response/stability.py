@@ -1,7 +1,7 @@
-"""Eigenvalues on which the stability of a state hangs: A, footnote 1; B, Figs. 3, 7, 13; C.
+"""Eigenvalues that decide the stability of a state: A, footnote 1; B, Figs. 3, 7, 13; C.
 
-The lowest eigenvalue of J tells how far a state is from giving way (B). Complex pairs make it grow
-oscillations (C):
+The lowest eigenvalue of J shows how far a state is from an instability (B). Complex pairs make
+oscillations grow (C):
 
     M q̈ = −J q,   M = diag(m, m, m/2) grain by grain      iω = ±√(−λ'), λ' of M⁻¹J
 
@@ -28,7 +28,7 @@ REAL_TOLERANCE = 1e-9
 
 
 def count_complex_pairs(packing: Packing, interaction: Interaction) -> int:
-    """Number of complex-conjugate pairs of eigenvalues of M⁻¹J, dense; with friction only.
+    """Number of complex-conjugate pairs of eigenvalues of M⁻¹J, by LAPACK; with friction only.
 
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
@@ -39,7 +39,9 @@ def count_complex_pairs(packing: Packing, interaction: Interaction) -> int:
 
 
 def mass_weighted_eigenvalues(packing: Packing, interaction: Interaction) -> np.ndarray:
-    """All 3N eigenvalues of M⁻¹J, complex, in no order; dense, for states in balance or not.
+    """All eigenvalues of M⁻¹J, (3N,) complex in k_N d^(1/2)/m, in no order, by LAPACK.
+
+    The state need not be in balance. Friction must exist.
 
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
@@ -50,21 +52,23 @@ def mass_weighted_eigenvalues(packing: Packing, interaction: Interaction) -> np.
 
 
 def asymmetry(matrix: sparse.csc_array) -> float:
-    """max|J − Jᵀ| / max|J|: B, App. D3, has none, without −(f_T/r) n tᵀ; 0 for an empty J."""
+    """max|J − Jᵀ| / max|J|; 0 for an empty J. In B, App. D3, it is 0, without −(f_T/r) n tᵀ."""
     largest = abs(matrix).max() if matrix.nnz else 0.0
     return float(abs(matrix - matrix.T).max() / largest) if largest else 0.0
 
 
 MAX_DENSE_SIZE = 60
-"""Degrees of freedom up to which the lowest eigenvalue is found densely."""
+"""Degrees of freedom up to which the lowest eigenvalue is found by LAPACK."""
 
 
 def lowest_eigenvalue(matrix: sparse.csc_array, factor: PinnedFactor, k: int) -> float:
-    """Smallest |λ| of J but its two translations, with the sign of its real part: B, Sec. IV.
+    """Smallest |λ| of J except its two translations, with the sign of Re λ: B, Sec. IV.
+
+    It is in k_N d^(1/2); NaN without such an eigenvalue.
 
     Args:
-        matrix: J (M, M), k degrees of freedom a grain.
-        factor: its factors, by which J⁻¹ on forces without a sum is iterated.
+        matrix: J (M, M), with k degrees of freedom per grain.
+        factor: its factors, with which J⁻¹ is iterated on forces whose sum is zero.
     """
     size = matrix.shape[0]
     if size <= MAX_DENSE_SIZE:
@@ -76,7 +80,7 @@ def lowest_eigenvalue(matrix: sparse.csc_array, factor: PinnedFactor, k: int) ->
 
 
 class LowestMode(NamedTuple):
-    """λ with R of norm 1, (M,), and |J R − λ R|; of a complex pair the real part of R."""
+    """λ, R of norm 1 (M,), and |J R − λ R|; for a complex pair R is the real part."""
 
     eigenvalue: float
     vector: np.ndarray
@@ -84,7 +88,7 @@ class LowestMode(NamedTuple):
 
 
 def lowest_mode(matrix: sparse.csc_array, factor: PinnedFactor, k: int) -> LowestMode:
-    """The eigenvector of `lowest_eigenvalue`, its largest component positive: B, Fig. 4.
+    """The eigenvector of `lowest_eigenvalue`, with its largest component positive: B, Fig. 4.
 
     A complex pair has no real eigenvector; its residual is then of the size of λ.
     """
@@ -104,7 +108,7 @@ def lowest_mode(matrix: sparse.csc_array, factor: PinnedFactor, k: int) -> Lowes
 
 
 def _inverted(size: int, factor: PinnedFactor, k: int) -> dict:
-    """J⁻¹ on fields without a translation, whose largest eigenvalue is asked for."""
+    """Arguments of `eigs` for the largest eigenvalue of J⁻¹ on fields without a translation."""
     inverse = LinearOperator(
         (size, size),
         matvec=lambda f: _centred(factor.solve(_centred(f, k), refined=False), k),
