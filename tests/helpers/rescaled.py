@@ -39,7 +39,7 @@ from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.release import Release
 from grainmodes.parameters.stages import STAGES
 from grainmodes.parameters.strain import Shear, StepStrain
-from grainmodes.stages.rows import block_of
+from grainmodes.stages.rows import compute_block
 from grainmodes.stages.samples import packed
 
 for stage in STAGES.values():
@@ -138,7 +138,7 @@ class RescaledSystem:
         """A block of one packing."""
         config = {"compression": asdict(self.compression())}
         point = {"n": len(row["diameter"]), "phi": 0.9, "stage": "packings", "config": config}
-        return block_of([0], lambda number: row | {"converged": True}, {}, point)
+        return compute_block([0], lambda number: row | {"converged": True}, {}, point)
 
     def compression(self) -> Compression:
         """F_Th in these units."""
