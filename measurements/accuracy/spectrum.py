@@ -4,7 +4,7 @@
 | ----------------- | ------------------------------------ | ------------------------------ |
 | dense symmetric   | every mode (LAPACK evd)              | modes                          |
 | dense general     | every mode (LAPACK geev, as A, B)    | modes                          |
-| windows           | every mode, block Lanczos            | modes                          |
+| slicing           | every mode, block Lanczos            | modes                          |
 | counts            | modes below given edges, exactly     | bin_density of A's linear bins    |
 | counted twice     | ψ^R in bins from counts in two σ     | cells a bin                    |
 | kernel polynomial | both, from random vectors: not taken | moments                        |
@@ -68,8 +68,8 @@ REFERENCE_REFINEMENT = 4
 MIN_CPU_SECONDS = 0.02
 """CPU seconds for which a short call is repeated, so that the clock can measure it."""
 
-WINDOWS_UP_TO = 12_288
-"""Degrees of freedom up to which all modes in windows take minutes."""
+SLICING_UP_TO = 12_288
+"""Degrees of freedom up to which all modes take minutes by spectrum slicing."""
 
 
 class MethodResult(NamedTuple):
@@ -109,7 +109,7 @@ def dense_general(eigenproblem: Eigenproblem, modes: float) -> MethodResult:
     return from_all_modes(values.real, rotational_fraction(_weight(eigenproblem, vectors)))
 
 
-def windows(eigenproblem: Eigenproblem, modes: float) -> MethodResult:
+def slicing(eigenproblem: Eigenproblem, modes: float) -> MethodResult:
     """Block Lanczos between exact counts."""
     found = full_spectrum(eigenproblem, choices=SpectrumChoices("slicing"))
     return from_all_modes(found.eigenvalue, found.psi_rotational)
@@ -183,7 +183,7 @@ BOTH = (DENSITY, SHARE)
 METHODS = {
     "dense symmetric": Method(dense_symmetric, BOTH, (), None, DENSE_MODES_UP_TO, SMALL),
     "dense general": Method(dense_general, BOTH, (), None, DENSE_MODES_UP_TO, NEVER),
-    "windows": Method(windows, BOTH, (), None, WINDOWS_UP_TO, BEYOND_MODES),
+    "slicing": Method(slicing, BOTH, (), None, SLICING_UP_TO, BEYOND_MODES),
     "counts": Method(
         counted, (DENSITY,), BIN_DENSITIES, DEFAULT.bin_density, np.inf, BEYOND_COUNTS
     ),

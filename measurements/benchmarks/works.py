@@ -146,7 +146,7 @@ def _used() -> float:
 
 
 def _units(work: str, n: int, folder: Path) -> float:
-    """Modes of windows, edges of counts, steps or states of a shear; else one sample."""
+    """Modes by slicing, edges of counts, steps or states of a shear; else one sample."""
     if work in ("shear", "law_comparison", "complex_pairs"):
         return SHEAR_STRAIN / USUAL_STEP
     names = {"window": "mode_count", "count": "bin_edge"}

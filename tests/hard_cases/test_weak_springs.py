@@ -1,7 +1,7 @@
 """k_T/k_N = 0, 1e-16, 1e-12, 1e-10: rotations at 1e-11 and less beside ‖J‖ ~ 1.
 
 Eigenvalues of LAPACK carry 1e-16 ‖J‖, and so does a Krylov space that mixes both bands. At 1e-8 and
-1e-10 see also `unit/test_windows.py` and `unit/test_shift.py`.
+1e-10 see also `unit/test_intervals.py` and `unit/test_shift.py`.
 """
 
 import numpy as np
@@ -25,7 +25,7 @@ from grainmodes.spectrum import (
 )
 
 SMALL = reference(MINIMAL[0])[1]
-WINDOWS = SpectrumChoices("slicing")
+SLICING = SpectrumChoices("slicing")
 
 
 def sure(matrix: np.ndarray, value: float, rank: int, part: float) -> bool:
@@ -39,18 +39,18 @@ def test_soft_eigenvalues_keep_ten_digits(kt, lapack):
     eigenproblem = Eigenproblem.from_packing(SMALL, elastic("hertz", kt))
     matrix, rank = eigenproblem.matrix.toarray(), 2
     assert not sure(matrix, dense.eigenvalues(eigenproblem)[rank], rank, lapack)
-    assert sure(matrix, full_spectrum(eigenproblem, choices=WINDOWS).eigenvalue[rank], rank, 1e-10)
+    assert sure(matrix, full_spectrum(eigenproblem, choices=SLICING).eigenvalue[rank], rank, 1e-10)
 
 
 def test_a_space_that_exhausts_a_band_beside_a_gap_stays_orthogonal():
     """63 rotations at 1e-12, the next modes at 1e-3: W falls by 1e9 within a block."""
     eigenproblem = Eigenproblem.from_packing(quenched(64, 0.9), elastic("hertz", 1e-12))
     shift = eigenproblem.symmetric_shift()
-    window = spectrum_slicing.SpectralSlice(1.07e-12, 6.9e-12, 13)
+    interval = spectrum_slicing.SpectralSlice(1.07e-12, 6.9e-12, 13)
     values, vectors = naive_failures.eigenpairs_near(shift, 4e-12, 112, 16)
-    inside = (values > window.low) & (values < window.high)
+    inside = (values > interval.low) & (values < interval.high)
     assert residual(eigenproblem, values[inside], vectors[:, inside]) > 1e-6
-    found = slice_eigenpairs.eigenpairs_in_slice(shift, window)
+    found = slice_eigenpairs.eigenpairs_in_slice(shift, interval)
     assert residual(eigenproblem, *found) < 1e-13
     np.testing.assert_allclose(found.vectors.T @ found.vectors, np.eye(13), atol=1e-12)
 
@@ -64,7 +64,7 @@ def test_rotations_below_the_lowest_safe_edge_are_counted_as_zero_modes():
     eigenproblem = Eigenproblem.from_packing(SMALL, elastic("hertz", 1e-16))
     lapack = dense.eigenvalues(eigenproblem)
     assert np.count_nonzero(lapack < 0.0) > 2
-    found = full_spectrum(eigenproblem, choices=WINDOWS).eigenvalue
+    found = full_spectrum(eigenproblem, choices=SLICING).eigenvalue
     assert np.count_nonzero(found == 0.0) == 2 + 16
     np.testing.assert_allclose(found[18:], lapack[18:], rtol=1e-10)
 

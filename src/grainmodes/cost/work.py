@@ -1,7 +1,7 @@
 """Which work a stage does on one sample: the name of a law → how many units of it.
 
 Spectra follow the rules by which the stages choose a method: LAPACK up to a size; beyond, counts
-at the edges of bins, or windows of eigenpairs. ψ^R of a bin is counted in `cells_per_bin` cells:
+at the edges of bins, or slices of eigenpairs. ψ^R of a bin is counted in `cells_per_bin` cells:
 each at its end on the diagonal and at two corners, and pairs of cells once more at two, four
 counts a cell. p takes the eigenpairs of a bin, at most `modes_per_bin`. A shear is priced per step
 of 1e-4, complex pairs per state, a release per million steps of all its runs.

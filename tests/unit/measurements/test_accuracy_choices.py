@@ -116,8 +116,8 @@ def test_methods_for_spectra():
     rows = list(spectrum.measure(Size((64,), 1)))
     error = errors_of(rows)
     of_density = {name: e for name, e in error.items() if name[0].endswith(r"$D(\omega)$")}
-    modes = next(setting for curve, setting in error if curve == "windows, $D(\\omega)$")
-    assert error["windows, $D(\\omega)$", modes] < 1e-12
+    modes = next(setting for curve, setting in error if curve == "slicing, $D(\\omega)$")
+    assert error["slicing, $D(\\omega)$", modes] < 1e-12
     assert 1e-12 < error["dense symmetric, $D(\\omega)$", modes] < 1e-7
     assert error["dense general, $\\psi^R$", modes] < 1e-12
     assert error["counts, $D(\\omega)$", 2.0] < 0.1 * error["counts, $D(\\omega)$", 0.02]

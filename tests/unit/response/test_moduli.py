@@ -194,7 +194,7 @@ def test_relative_and_net_are_each_others_transpose():
 
 
 def test_a_sum_over_modes_that_are_not_known_is_refused():
-    """Windows give modes below the lowest safe edge an eigenvalue 0, as at k_T/k_N = 1e-15."""
+    """Slicing gives modes below the lowest safe edge an eigenvalue 0, as at k_T/k_N = 1e-15."""
     packing, interaction = reference(MINIMAL[0])[1], elastic("hertz", 1e-15)
     by_mode = ModeRigidity(packing, interaction)
     choices = SpectrumChoices("slicing")
