@@ -1,4 +1,4 @@
-"""How an unstable state is let go."""
+"""How an unstable state is released."""
 
 from __future__ import annotations
 
@@ -15,12 +15,13 @@ DENSE_RECORDS_ONSET = 1e-16
 class Release:
     """Newtonian dynamics from a state with a complex pair λ' = (ω_r + iω_i)² (C, Sec. VI and VII).
 
-    It runs for `duration` / ω_i, looked at in `n_records` even intervals and in between where it
-    matters. `initial_velocity` is the root mean square velocity along ü^m at the start, in d/t_0; 0
-    leaves the state to round-off. Each of `dampings`, η_0 in units of ω_i, is a run more beside the
-    undamped one. That one takes `min_time` t_0 at least: its plateau lasts some 1e5 t_0, however
-    fast the pair grew before, while a damped one has come to rest. At `spectra` times of it the
-    eigenvalues of M⁻¹J are found. A state that takes more than `max_steps` is refused.
+    A run takes `duration` / ω_i. It is recorded in `n_records` even intervals, and more often where
+    it matters. `initial_velocity` is the root mean square velocity along ü^m at the start, in d/t_0;
+    at 0 round-off alone starts the growth. Each of `dampings`, η_0 in units of ω_i, is a further run
+    besides the undamped one. The undamped run takes at least `min_time`, in t_0: its plateau lasts
+    some 1e5 t_0, however fast the pair grew before, while a damped run has come to rest by then. At
+    `spectra` times of the undamped run all eigenvalues of M⁻¹J are computed. A state that needs more
+    than `max_steps` is not released.
     """
 
     time_step: float = 0.1

@@ -24,9 +24,10 @@ class StepStrain:
 class Shear:
     """Athermal quasistatic shear from 0 to `strain` in steps of `step` (B, Sec. II, App. B).
 
-    A step with an event is taken back and divided by ten, down to `min_step`. `newton` leaves
-    to the damped dynamics, with `time_step` and `drag`, only what it cannot decide. The lowest
-    eigenvalue of J is found on both sides of "events", or of all "states".
+    A step with an event is taken back and divided by ten, down to `min_step`. With "newton" the
+    damped dynamics, with `time_step` in t_0 and `drag` in 1/t_0, is used only where Newton's method
+    cannot decide. The lowest eigenvalue of J is computed on both sides of all "events", or of all
+    "states". If `loaded`, the affine motion stretches the tangential springs.
     """
 
     strain: float = 0.5

@@ -1,6 +1,6 @@
 """Numbers that single claims of paper A need, a row per packing and k_T: stage `claim_diagnostics`.
 
-| claim                                        | probe                                  |
+| claim                                        | diagnostic                             |
 | -------------------------------------------- | -------------------------------------- |
 | A12  D = D_H                                 | H − J, with slopes and with k_N, k_T   |
 | A16  g does not depend on Δγ                 | forward step strains of three sizes    |
@@ -8,10 +8,11 @@
 | A18  velocity Verlet is right to Δt² and Δt  | one step against 32 short ones         |
 | A19  compressed with friction: complex pairs | frictional compression, then λ of M⁻¹J |
 
-A probe that fails leaves NaN in its place and its sentence among the failures of its seed; the row
-counts as converged all the same. NaN is also what does not exist: at k_T = 0 there is no velocity
-Verlet and no compression with friction, and dense matrices stop at `DENSE` and `COMPRESSED` grains.
-A packing that is not jammed has g = 0, and expanded_to_contact and compressed again it stays so.
+A diagnostic that fails leaves NaN in its place and its sentence among the failures of its seed; the
+row counts as converged all the same. NaN also stands for what does not exist: at k_T = 0 there is
+no velocity Verlet and no compression with friction, and large packings have no dense matrices
+(`MAX_DENSE_GRAINS`, `MAX_COMPRESSED_GRAINS`). A packing that is not jammed has g = 0, and it does
+not jam when it is expanded and compressed again.
 """
 
 from __future__ import annotations
@@ -42,26 +43,26 @@ from grainmodes.stages.samples import jammed_packing, seed_of
 STRAINS = (1e-6, 1e-5, 1e-4)
 """Δγ of claim A16."""
 
-DENSE = 1024
+MAX_DENSE_GRAINS = 1024
 """Most grains of which all eigenvectors are computed."""
 
-COMPRESSED = 256
+MAX_COMPRESSED_GRAINS = 256
 """Most grains that are compressed with friction."""
 
 
 class Attempts:
-    """Calls what may fail: its sentence is kept, and something else stands in its place."""
+    """Calls functions that may fail, and collects the sentences of those that do."""
 
     def __init__(self):
         self.sentences: list[str] = []
 
-    def __call__(self, instead: Any, probe: Callable, *arguments: Any) -> Any:
-        """What the probe returns, or `instead`."""
+    def __call__(self, default: Any, function: Callable, *arguments: Any) -> Any:
+        """What the function returns, or `default` where it fails."""
         try:
-            return probe(*arguments)
+            return function(*arguments)
         except SAMPLE_ERRORS as error:
-            self.sentences.append(f"{probe.__name__}: {error}")
-            return instead
+            self.sentences.append(f"{function.__name__}: {error}")
+            return default
 
 
 def claim_diagnostics_block(
@@ -73,10 +74,13 @@ def claim_diagnostics_block(
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, Interaction.from_law(law))
         attempt = Attempts()
-        probed = probes(packing, law, rattlers, step, attempt) if jammed else unjammed(packing, law)
+        if jammed:
+            row = diagnostics_row(packing, law, rattlers, step, attempt)
+        else:
+            row = unjammed_row(packing, law)
         if attempt.sentences:
             sentences[str(seed_of(packings, number))] = "; ".join(attempt.sentences)
-        return {"diagnostic_strain": STRAINS, "converged": True} | probed
+        return {"diagnostic_strain": STRAINS, "converged": True} | row
 
     config = {"law": asdict(law), "rattlers": asdict(rattlers), "step_strain": asdict(step)}
     block = response_block(packings, "claim_diagnostics", config, law, sample)
@@ -84,52 +88,48 @@ def claim_diagnostics_block(
     return Block(block.variables, block.attributes | {"failures": failures})
 
 
-def unjammed(packing: Packing, law: ContactLaw) -> dict[str, object]:
+def unjammed_row(packing: Packing, law: ContactLaw) -> dict[str, object]:
     """The row of a packing that is not jammed."""
     row: dict[str, object] = {"g_forward_by_strain": np.zeros(len(STRAINS))}
-    if packing.n <= DENSE:
+    if packing.n <= MAX_DENSE_GRAINS:
         row |= {"g_translational": 0.0}
-    if law.frictional and packing.n <= COMPRESSED:
+    if law.frictional and packing.n <= MAX_COMPRESSED_GRAINS:
         row |= {"complex_pairs_frictional": 0, "jammed_frictional": 0}
     return row
 
 
-def probes(
+def diagnostics_row(
     packing: Packing, law: ContactLaw, rattlers: Rattlers, step: StepStrain, attempt: Attempts
 ) -> dict[str, object]:
-    """The row of a jammed packing; what failed is NaN and stands in `attempt.sentences`."""
+    """The row of a jammed packing, in which a diagnostic that fails is NaN."""
     interaction, threshold = Interaction.from_law(law), rattlers.largest(law)
     row = {
         "g_forward_by_strain": [
             attempt(np.nan, forward_rigidity, packing, interaction, sized, threshold)
-            for sized in _steps(step)
+            for sized in (replace(step, strain=strain) for strain in STRAINS)
         ],
         "hessian_difference": attempt(np.nan, hessian_difference, packing, interaction, "tangent"),
         "hessian_printed_difference": attempt(
             np.nan, hessian_difference, packing, interaction, "printed"
         ),
     }
-    if packing.n <= DENSE:
+    if packing.n <= MAX_DENSE_GRAINS:
         row["g_translational"] = attempt(
             np.nan, translational_rigidity, packing, interaction, threshold
         )
     return row | _frictional(packing, law, step, attempt)
 
 
-def _steps(step: StepStrain) -> list[StepStrain]:
-    return [replace(step, strain=strain) for strain in STRAINS]
-
-
 def _frictional(
     packing: Packing, law: ContactLaw, step: StepStrain, attempt: Attempts
 ) -> dict[str, object]:
-    """The probes of a packing whose grains have velocities and springs."""
+    """The diagnostics of a packing whose grains have velocities and springs."""
     if not law.frictional:
         return {}
     interaction = Interaction.from_law(law)
     orders = attempt((np.nan, np.nan), step_orders, packing, interaction, Dashpot(step.damping))
     row = dict(zip(("verlet_order_position", "verlet_order_velocity"), orders, strict=True))
-    if packing.n > COMPRESSED:
+    if packing.n > MAX_COMPRESSED_GRAINS:
         return row
     names = ("complex_pairs_frictional", "jammed_frictional")
     found = attempt((np.nan, np.nan), compressed_pairs, packing, interaction, step.force_tolerance)
@@ -137,7 +137,7 @@ def _frictional(
 
 
 def translational_rigidity(packing: Packing, interaction: Interaction, threshold: int) -> float:
-    """g where the modes with ψ^T > 1/2 alone respond."""
+    """g to which only the modes with ψ^T > 1/2 contribute."""
     by_mode = ModeRigidity(packing, interaction, threshold)
     found = packing_spectrum(packing, interaction, threshold, forces=by_mode.forces)
     assert found.psi_rotational is not None  # all modes are requested
@@ -155,6 +155,6 @@ def hessian_difference(packing: Packing, interaction: Interaction, stiffness: st
 def compressed_pairs(
     packing: Packing, interaction: Interaction, tolerance: float
 ) -> tuple[int, bool]:
-    """Complex pairs of the packing compressed anew with friction, and whether it is jammed."""
+    """Number of complex pairs of the packing compressed with friction, and whether it is jammed."""
     found = frictional_compression(packing, interaction, tolerance)
     return (count_complex_pairs(found.packing, interaction) if found.jammed else 0), found.jammed

@@ -1,4 +1,4 @@
-"""The probes of single claims, and that one which fails sinks nothing else."""
+"""The diagnostics of single claims; one that fails leaves the others as they are."""
 
 import json
 from dataclasses import replace
@@ -169,8 +169,8 @@ def test_without_friction_there_is_neither_verlet_nor_compression():
 
 
 def test_large_packings_are_spared_dense_matrices(monkeypatch):
-    monkeypatch.setattr(claim_diagnostics, "DENSE", 8)
-    monkeypatch.setattr(claim_diagnostics, "COMPRESSED", 8)
+    monkeypatch.setattr(claim_diagnostics, "MAX_DENSE_GRAINS", 8)
+    monkeypatch.setattr(claim_diagnostics, "MAX_COMPRESSED_GRAINS", 8)
     found = row(reference(SMALL)[1], KT).variables
     assert "g_translational" not in found and "complex_pairs_frictional" not in found
     assert found["verlet_order_position"][0] > 1.9
@@ -204,8 +204,8 @@ def test_the_command_writes_what_the_function_finds(tmp_path):
     write_block(tmp_path / "packings.nc", packings)
     words = ["claim-diagnostics", str(tmp_path / "packings.nc"), "--kt", "0"]
     rattlers = json.dumps({"protocol": {"rattlers": {"threshold": 1}}})
-    assert main([*words, "--settings", rattlers, "-o", str(tmp_path / "probes.nc")]) == 0
-    written = read_block(tmp_path / "probes.nc")
+    assert main([*words, "--settings", rattlers, "-o", str(tmp_path / "diagnostics.nc")]) == 0
+    written = read_block(tmp_path / "diagnostics.nc")
     assert json.loads(written.attributes["config"])["rattlers"]["threshold"] == 1
     found = row(reference(SMALL)[1], 0.0).variables
     for name in found:
