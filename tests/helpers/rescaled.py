@@ -39,8 +39,8 @@ from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.release import Release
 from grainmodes.parameters.stages import STAGES
 from grainmodes.parameters.strain import Shear, StepStrain
+from grainmodes.stages.packing_rows import packing_row
 from grainmodes.stages.rows import compute_block
-from grainmodes.stages.samples import packed
 
 for stage in STAGES.values():
     import_module(stage.function.partition(":")[0])  # all constants are bound before any is patched
@@ -56,7 +56,7 @@ CURVATURE = Unit(length=-1)
 CONSTANTS = {
     ("protocols.shear.events", "MIN_RIGIDITY_DROP"): MODULUS,
     ("protocols.shear.events", "PATH_CURVATURE"): CURVATURE,
-    ("response.stability", "REAL"): SQUARED_RATE,
+    ("response.stability", "REAL_TOLERANCE"): SQUARED_RATE,
     ("parameters.release", "GROWTH_RANGE"): AREA,
     ("parameters.release", "DENSE_RECORDS_ONSET"): AREA,
     ("protocols.pair_tracking.linear_range", "FARTHEST"): LENGTH,
@@ -132,7 +132,7 @@ class RescaledSystem:
             mass=packing.mass * self.factor(MASS),
             box_length=packing.box_length * self.factor(LENGTH),
         )
-        return self.block(packed(scaled, Interaction.from_law(self.law).normal))
+        return self.block(packing_row(scaled, Interaction.from_law(self.law).normal))
 
     def block(self, row: dict[str, object]) -> Block:
         """A block of one packing."""
