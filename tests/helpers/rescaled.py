@@ -59,7 +59,7 @@ CONSTANTS = {
     ("response.stability", "REAL_TOLERANCE"): SQUARED_RATE,
     ("parameters.release", "GROWTH_RANGE"): AREA,
     ("parameters.release", "DENSE_RECORDS_ONSET"): AREA,
-    ("protocols.pair_tracking.linear_range", "FARTHEST"): LENGTH,
+    ("protocols.pair_tracking.linear_range", "MAX_GAP"): LENGTH,
     ("protocols.release.simulated_growth", "AMPLITUDE"): LENGTH,
     ("protocols.compression.frictional_compression", "TIME_STEP"): TIME,
     ("protocols.compression.frictional_compression", "VISCOSITY"): VISCOSITY,
