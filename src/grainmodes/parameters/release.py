@@ -16,12 +16,12 @@ class Release:
     """Newtonian dynamics from a state with a complex pair λ' = (ω_r + iω_i)² (C, Sec. VI and VII).
 
     A run takes `duration` / ω_i. It is recorded in `n_records` even intervals, and more often where
-    it matters. `initial_velocity` is the root mean square velocity along ü^m at the start, in d/t_0;
-    at 0 round-off alone starts the growth. Each of `dampings`, η_0 in units of ω_i, is a further run
-    besides the undamped one. The undamped run takes at least `min_time`, in t_0: its plateau lasts
-    some 1e5 t_0, however fast the pair grew before, while a damped run has come to rest by then. At
-    `spectra` times of the undamped run all eigenvalues of M⁻¹J are computed. A state that needs more
-    than `max_steps` is not released.
+    it matters. `initial_velocity` is the root mean square velocity along ü^m at the start, in
+    d/t_0; at 0 round-off alone starts the growth. Each of `dampings`, η_0 in units of ω_i, is a
+    further run besides the undamped one. The undamped run takes at least `min_time`, in t_0: its
+    plateau lasts some 1e5 t_0, however fast the pair grew before, while a damped run has come to
+    rest by then. At `spectra` times of the undamped run all eigenvalues of M⁻¹J are computed. A
+    state that needs more than `max_steps` is not released.
     """
 
     time_step: float = 0.1
