@@ -95,7 +95,7 @@ def computed(normal: str, case: str, scale: str) -> tuple[RescaledSystem, Block]
     system = RescaledSystem(ContactLaw(normal, "smoothed_coulomb", 0.3, 10.0), scale)
     if case == "shear, springs of forces":
         system.law = ContactLaw(normal, "elastic_force", 0.3)
-    with system.in_force(), patch("grainmodes.protocols.law_comparison.comparison.STATES", 1):
+    with system.in_force(), patch("grainmodes.protocols.law_comparison.comparison.N_STATES", 1):
         found = block(system, case)
     assert found.variables["converged"].all(), found.attributes["failures"]
     return system, found
