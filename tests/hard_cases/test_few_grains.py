@@ -78,11 +78,11 @@ def test_a_stable_packing_may_have_a_negative_g():
 
 def test_a_seed_that_needs_ten_times_the_usual_iterations():
     """Sixteen grains at φ = 0.84, where half of the samples are jammed: 4207 beside 72."""
-    law = Hertz(1.0)
+    normal = Hertz(1.0)
 
     def iterations(seed: int) -> int:
-        start = compress_along_grid(place_at_random(16, seed, law, COARSE), 0.84, law, COARSE)
-        relaxed = compress_to(start, 0.84, law, COARSE)
+        start = compress_along_grid(place_at_random(16, seed, normal, COARSE), 0.84, normal, COARSE)
+        relaxed = compress_to(start, 0.84, normal, COARSE)
         assert relaxed.converged and relaxed.max_force < 1e-14
         return relaxed.iterations - start.iterations
 

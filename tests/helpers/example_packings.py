@@ -182,11 +182,11 @@ def kt_and_backend(*kts: float) -> list[tuple[float, str]]:
 @cache
 def quenched(n: int, phi: float, seed: int = 0) -> Packing:
     """A packing in balance straight from random placement; near jamming it is compressed to φ."""
-    law, protocol = Hertz(1.0), Compression(phi_step=1e-3)
-    start = place_at_random(n, seed, law, protocol)
+    normal, protocol = Hertz(1.0), Compression(phi_step=1e-3)
+    start = place_at_random(n, seed, normal, protocol)
     if phi < 0.87:
         return compress_to(
-            compress_along_grid(start, phi, law, protocol), phi, law, protocol
+            compress_along_grid(start, phi, normal, protocol), phi, normal, protocol
         ).packing
-    loose = relax_fire_large_steps(start.packing.at(phi), law, 1e-7, 0.0, 100_000).packing
-    return relax_fire_newton(loose, law, 1e-14, 1_000_000).packing
+    loose = relax_fire_large_steps(start.packing.at(phi), normal, 1e-7, 0.0, 100_000).packing
+    return relax_fire_newton(loose, normal, 1e-14, 1_000_000).packing

@@ -24,8 +24,10 @@ pytestmark = pytest.mark.slow
 def grains_of_c(normal: str) -> Packing:
     """64 grains of diameters 1 and 1.4, every mass 1."""
     protocol = Compression(phi_step=1e-2, large_diameter=1.4, masses="equal")
-    law = Interaction.from_law(ContactLaw(normal)).normal
-    return compress_to(place_at_random(64, SEED[normal], law, protocol), 0.9, law, protocol).packing
+    normal_law = Interaction.from_law(ContactLaw(normal)).normal
+    return compress_to(
+        place_at_random(64, SEED[normal], normal_law, protocol), 0.9, normal_law, protocol
+    ).packing
 
 
 @cache

@@ -33,9 +33,9 @@ sys.exit(main(sys.argv[2:]))
 @pytest.fixture(scope="module")
 def start(tmp_path_factory) -> Path:
     """A checkpoint at φ straight from random placement, in the loose balance of a trajectory."""
-    law, protocol = Hertz(1.0), Compression()
-    first = place_at_random(N, 0, law, protocol).packing.at(PHI)
-    loose = relax_fire_large_steps(first, law, 0.0, protocol.intermediate_balance, 20_000)
+    normal, protocol = Hertz(1.0), Compression()
+    first = place_at_random(N, 0, normal, protocol).packing.at(PHI)
+    loose = relax_fire_large_steps(first, normal, 0.0, protocol.intermediate_balance, 20_000)
     steps = round((PHI - protocol.initial_phi) / protocol.phi_step)
     row = trajectory_row(Trajectory(loose.packing, steps, 0.84, loose.iterations))
     config = {"compression": asdict(protocol), "normal": "hertz"}

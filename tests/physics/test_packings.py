@@ -31,8 +31,8 @@ def compressed(
 ) -> Packing:
     """A packing at φ, compressed in coarse steps."""
     protocol = Compression(relaxation=relaxation, phi_step=1e-2, **grains)
-    law = elastic(normal, 0.0).normal
-    relaxed = compress_to(place_at_random(n, seed, law, protocol), phi, law, protocol)
+    normal_law = elastic(normal, 0.0).normal
+    relaxed = compress_to(place_at_random(n, seed, normal_law, protocol), phi, normal_law, protocol)
     assert relaxed.converged
     return relaxed.packing
 

@@ -100,9 +100,9 @@ TANGENTIAL = (
 
 def test_without_friction_nothing_tangential_is_touched(monkeypatch):
     refuse(monkeypatch, *TANGENTIAL)
-    law, protocol = Hertz(1.0), Compression(phi_step=1e-3)
-    start = compress_along_grid(place_at_random(16, 1, law, protocol), 0.9, law, protocol)
-    packing = compress_to(start, 0.9, law, protocol).packing
+    normal, protocol = Hertz(1.0), Compression(phi_step=1e-3)
+    start = compress_along_grid(place_at_random(16, 1, normal, protocol), 0.9, normal, protocol)
+    packing = compress_to(start, 0.9, normal, protocol).packing
     assert net_force(packing, NO_FRICTION).shape == (16, 2)
     assert rigidity(packing, NO_FRICTION).unloaded.displacement.shape[1] == 2
     assert step_strain(packing, NO_FRICTION, StepStrain()).converged
