@@ -6,16 +6,16 @@ The fast version is `grainmodes.complex_pairs.continuation`.
 import numpy as np
 
 from grainmodes.complex_pairs.definition import ComplexPairs, DynamicalMatrix, select_pairs
-from grainmodes.complex_pairs.partitioning import Eigensystem, NearlyDiagonal
+from grainmodes.complex_pairs.partitioning import Eigensystem
 
 
-def dense_eigensystem(matrix: NearlyDiagonal) -> Eigensystem:
+def dense_eigensystem(diagonal: np.ndarray, perturbation: np.ndarray) -> Eigensystem:
     """All eigenpairs of diag(d) + E by LAPACK, in the layout of `partitioned_eigensystem`."""
-    values, vectors = np.linalg.eig(np.diag(matrix.diagonal) + matrix.perturbation)
+    values, vectors = np.linalg.eig(np.diag(diagonal) + perturbation)
     order = np.lexsort((-values.imag, values.real))
     values, vectors = values[order].astype(complex), vectors[:, order]
     rows = np.where(values.imag < 0.0, -vectors.imag, vectors.real).T
-    defect = abs(values.real.sum() - matrix.diagonal.sum())
+    defect = abs(values.real.sum() - diagonal.sum())
     return Eigensystem(values, rows, np.zeros(len(values)), defect)
 
 

@@ -82,7 +82,7 @@ class Disc(NamedTuple):
     @property
     def n_eigenvalues(self) -> int:
         """Number of eigenvalues of K in the disc, two for every pair."""
-        return len(self.value) + np.count_nonzero(self.value.imag)
+        return len(self.value) + int(np.count_nonzero(self.value.imag))
 
     def subset(self, selected: np.ndarray) -> Disc:
         """The disc with the `selected` eigenvalues only, (k,) bool."""
@@ -179,7 +179,7 @@ class DiscSolver:
         return shift + 1.0 / value, vectors
 
     def _without_null(self, vector: np.ndarray) -> np.ndarray:
-        return vector - self._null @ (self._null.T @ vector)
+        return np.asarray(vector - self._null @ (self._null.T @ vector))
 
 
 def _disc(shift: complex, radius: float, value: np.ndarray, vectors: np.ndarray) -> Disc:

@@ -26,21 +26,14 @@ from grainmodes.complex_pairs.definition import (
     dense_eigenpairs,
     select_pairs,
 )
-from grainmodes.complex_pairs.partitioning import (
-    Eigensystem,
-    NearlyDiagonal,
-    partitioned_eigensystem,
-)
+from grainmodes.complex_pairs.partitioning import Eigensystem, partitioned_eigensystem
 from grainmodes.complex_pairs.refinement import Eigenbasis, refined_subspaces
 
 TRACE_TOLERANCE = 1e-3
 """|Σλ − tr B| above which the subspaces are not refined, k_N d^(1/2)/m."""
 
-MAX_PASSES = 5
-"""Passes for one K, after which LAPACK costs no more."""
-
-PARTS = (1.0, 0.5, 0.25)
-"""Parts of E with which B is tried."""
+MAX_PASSES, PARTS = 5, (1.0, 0.5, 0.25)
+"""Passes for one K, after which LAPACK costs no more, and parts of E that each pass tries."""
 
 
 class EigenbasisContinuation:
@@ -58,9 +51,9 @@ class EigenbasisContinuation:
             numpy.linalg.LinAlgError: the dense eigensolver did not converge.
         """
         self.dense = False
-        if np.array_equal(self._backbone, problem.backbone):
+        if self._basis is not None and np.array_equal(self._backbone, problem.backbone):
             for _ in range(MAX_PASSES):
-                found = self._pass(problem.matrix)
+                self._basis, found = _pass(problem.matrix, self._basis)
                 if found is None:
                     break
                 if found.trace_defect < TRACE_TOLERANCE:
@@ -74,21 +67,19 @@ class EigenbasisContinuation:
         self._backbone, self.dense = problem.backbone, True
         return select_pairs(values, right, left)
 
-    def _pass(self, matrix: sparse.csr_array) -> Eigensystem | None:
-        """The eigenpairs of B by partitioning; the eigenbasis moves on to them."""
-        vectors = self._basis.vectors
-        image = matrix.astype(np.float32) @ vectors
-        quotients = np.einsum("nk,nk->k", vectors, image)
-        perturbation = self._basis.inverse @ (image - vectors * quotients)
-        diagonal = quotients.astype(float) + np.diagonal(perturbation)
-        order = np.argsort(diagonal, kind="stable")
-        transposed = np.ascontiguousarray(perturbation[order].T)[order]
-        np.fill_diagonal(transposed, 0.0)
-        perturbation = np.ascontiguousarray(transposed.T)
-        for part in PARTS:
-            nearly = NearlyDiagonal(diagonal[order], part * perturbation, part * transposed)
-            found = partitioned_eigensystem(nearly)
-            if found is not None:
-                self._basis = Eigenbasis.from_vectors(vectors[:, order] @ found.rows.T)
-                return found if part == 1.0 else found._replace(trace_defect=np.inf)
-        return None
+
+def _pass(matrix: sparse.csr_array, basis: Eigenbasis) -> tuple[Eigenbasis, Eigensystem | None]:
+    """The next eigenbasis and the eigenpairs of B by partitioning; None where this fails."""
+    image = matrix.astype(np.float32) @ basis.vectors
+    quotients = np.einsum("nk,nk->k", basis.vectors, image)
+    perturbation = basis.inverse @ (image - basis.vectors * quotients)
+    diagonal = quotients.astype(float) + np.diagonal(perturbation)
+    order = np.argsort(diagonal, kind="stable")
+    perturbation = perturbation[order][:, order]
+    np.fill_diagonal(perturbation, 0.0)
+    for part in PARTS:
+        found = partitioned_eigensystem(diagonal[order], part * perturbation)
+        if found is not None:
+            moved = Eigenbasis.from_vectors(basis.vectors[:, order] @ found.rows.T)
+            return moved, found if part == 1.0 else found._replace(trace_defect=np.inf)
+    return basis, None

@@ -56,12 +56,12 @@ class ComplexPairs(NamedTuple):
     @property
     def condition(self) -> np.ndarray:
         """Condition of every eigenvalue, (P,), at least 1."""
-        return np.linalg.norm(self.left, axis=0)
+        return np.asarray(np.linalg.norm(self.left, axis=0))
 
     @property
     def growth(self) -> np.ndarray:
         """ω_i, (P,), in 1/t0: C (12)."""
-        return np.sqrt(self.value).imag
+        return np.imag(np.sqrt(self.value))
 
 
 def translations(mass: np.ndarray) -> np.ndarray:
@@ -92,7 +92,8 @@ def dense_eigenpairs(matrix: sparse.csr_array) -> tuple[np.ndarray, np.ndarray, 
     if asymmetry(matrix.tocsc()) < SYMMETRY_TOLERANCE:
         value, vectors = scipy.linalg.eigh(matrix.toarray(), overwrite_a=True, driver="evd")
         return value.astype(complex), vectors, vectors
-    return scipy.linalg.eig(matrix.toarray(), left=True, overwrite_a=True)
+    value, left, right = scipy.linalg.eig(matrix.toarray(), left=True, overwrite_a=True)
+    return value, left, right
 
 
 def select_pairs(value: np.ndarray, right: np.ndarray, left: np.ndarray) -> ComplexPairs:

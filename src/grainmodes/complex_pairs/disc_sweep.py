@@ -107,7 +107,8 @@ def _merge(parts: list[ComplexPairs]) -> ComplexPairs:
 
 def _covering(disc_at: Callable[[float], Disc], scale: float, top: float) -> list[Disc]:
     """Discs that overlap one after the other, from below 0 to above every eigenvalue."""
-    discs, ahead = [disc_at(-1e-4 * scale)], []
+    discs = [disc_at(-1e-4 * scale)]
+    ahead: list[Disc] = []
     while discs[-1].high < top:
         last = discs[-1]
         if ahead and ahead[-1].low < last.high:

@@ -7,15 +7,6 @@ two-sided Rayleigh quotients, and it is invariant where both residuals vanish:
 
 The eigenvalues λ of B are then those of K; elsewhere their error is of the order of the product of
 both residuals. With B k = λ k and Bᵀ l = λ* l a complex pair has the vectors u = R k and v = L l.
-
-| symbol         | name           | shape                                           |
-| -------------- | -------------- | ----------------------------------------------- |
-| R, orthonormal | right          | (P, 2, M)                                       |
-| L              | left           | (P, 2, M)                                       |
-| B              | block          | (P, 2, 2)                                       |
-| K R − R B      | right_residual | (P, 2, M)                                       |
-| Kᵀ L − L Bᵀ    | left_residual  | (P, 2, M)                                       |
-| larger norm    | residual       | (P,), in units of max|K|; for L also of |L|     |
 """
 
 from __future__ import annotations
@@ -25,12 +16,19 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse as sparse
 
-from grainmodes.complex_pairs.definition import ComplexPairs
+from grainmodes.complex_pairs.definition import ComplexPairs, select_pairs
 from grainmodes.response.stability import REAL_TOLERANCE
 
 
 class Subspaces(NamedTuple):
-    """Two-dimensional subspaces with their blocks and residuals, float64."""
+    """Two-dimensional subspaces with their blocks and residuals, float64.
+
+    Attributes:
+        right, left: R, orthonormal, and L, (P, 2, M).
+        block: B, (P, 2, 2).
+        right_residual, left_residual: K R − R B and Kᵀ L − L Bᵀ, (P, 2, M).
+        residual: the larger of their norms, (P,), in units of max|K|, and of |L| for the left one.
+    """
 
     right: np.ndarray
     left: np.ndarray
@@ -50,8 +48,7 @@ class Subspaces(NamedTuple):
         left_residual = backward - block @ left
         parts = (right_residual, left_residual, left)
         norms = [np.sqrt(np.einsum("pkm,pkm->p", part, part)) for part in parts]
-        residual = np.maximum(norms[0], norms[1] / norms[2])
-        residual /= np.abs(matrix.data).max()
+        residual = np.maximum(norms[0], norms[1] / norms[2]) / np.abs(matrix.data).max()
         return cls(right, left, block, right_residual, left_residual, residual)
 
     @property
@@ -59,17 +56,12 @@ class Subspaces(NamedTuple):
         """The complex pairs among the eigenvalues, λ_r ascending, |u| = 1 and vᴴu = 1."""
         (a, b), (c, d) = np.moveaxis(self.block, 0, -1)
         values = 0.5 * (a + d) + 0.5j * np.sqrt(np.maximum(-((a - d) ** 2) - 4.0 * b * c, 0.0))
-        (pairs,) = np.nonzero(values.imag > REAL_TOLERANCE)
-        pairs = pairs[np.argsort(values.real[pairs], kind="stable")]
+        pairs = values.imag > REAL_TOLERANCE
         values, block = values[pairs], self.block[pairs]
         right = block_eigenvectors(block, values)
         left = block_eigenvectors(block.swapaxes(1, 2), values.conj())
-        left /= np.einsum("pk,pk->p", left, right.conj())[:, None]
-        u, v = (
-            np.einsum("pkm,pk->mp", plane[pairs], coordinates)
-            for plane, coordinates in ((self.right, right), (self.left, left))
-        )
-        return ComplexPairs(values, u, v)
+        u = np.einsum("pkm,pk->mp", self.right[pairs], right)
+        return select_pairs(values, u, np.einsum("pkm,pk->mp", self.left[pairs], left))
 
 
 def block_eigenvectors(block: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -97,4 +89,5 @@ def orthonormal(vectors: np.ndarray) -> np.ndarray:
 
 def _product(matrix: sparse.csr_array, vectors: np.ndarray) -> np.ndarray:
     """K times every row of vectors (P, 2, M)."""
-    return (matrix @ vectors.reshape(-1, vectors.shape[2]).T).T.reshape(vectors.shape)
+    flat: np.ndarray = (matrix @ vectors.reshape(-1, vectors.shape[2]).T).T
+    return flat.reshape(vectors.shape)

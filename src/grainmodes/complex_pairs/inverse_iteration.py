@@ -75,12 +75,12 @@ class InvariantSubspace(NamedTuple):
     @property
     def vectors(self) -> np.ndarray:
         """u1 and u2, (M, 2) complex128, of norm 1; the same one twice where λ1 = λ2."""
-        return self.right @ _eigenvectors(self.block, self.values)
+        return np.asarray(self.right @ _eigenvectors(self.block, self.values))
 
     @property
     def left_vectors(self) -> np.ndarray:
         """v1 and v2, (M, 2) complex128: vᴴ K = λ vᴴ."""
-        return self.left @ _eigenvectors(self.block.T, self.values.conj())
+        return np.asarray(self.left @ _eigenvectors(self.block.T, self.values.conj()))
 
     @property
     def product(self) -> float:

@@ -53,4 +53,4 @@ def projector_overlap(projectors: PairProjectors, others: PairProjectors) -> np.
     size = projectors.left.shape[2]
     within = projectors.left.reshape(-1, size) @ others.right.reshape(-1, size).T
     squares = (within**2).reshape(len(projectors.left), 2, -1, 2)
-    return np.sqrt(0.5 * squares.sum(axis=(1, 3)))
+    return np.asarray(np.sqrt(0.5 * squares.sum(axis=(1, 3))))

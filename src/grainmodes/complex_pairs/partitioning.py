@@ -27,9 +27,7 @@ import numpy as np
 from scipy.linalg import lapack
 
 SIZE, MARGIN, MAX_STRONG = 72, 12, 16
-"""Modes of C, of these in the margin on each side, and at most strongly coupled.
-
-LAPACK is slower from 75 modes on."""
+"""Modes of C (LAPACK is slower from 75 on), in the margin on each side, and strongly coupled."""
 
 STRONG_COUPLING = 20.0
 """|Σ_l E_kl E_lk| of a strongly coupled mode k, in units of the median of all modes."""
@@ -38,24 +36,7 @@ MAX_TRACE_DEFECT = 0.02
 """|Σλ − tr B| above which one eigenvalue was left out and another one counted twice."""
 
 
-class NearlyDiagonal(NamedTuple):
-    """B = diag(d) + E.
-
-    Attributes:
-        diagonal: d, (M,) float64, ascending.
-        perturbation: E, (M, M) float32 with 0 on the diagonal.
-        transposed: Eᵀ, stored once more so that columns of E can be read as rows.
-    """
-
-    diagonal: np.ndarray
-    perturbation: np.ndarray
-    transposed: np.ndarray
-
-    def strongly_coupled(self) -> np.ndarray:
-        """Places of the modes that couple most to all others, if they stand out."""
-        coupling = np.abs(np.einsum("kl,kl->k", self.perturbation, self.transposed))
-        most = np.argsort(-coupling)[:MAX_STRONG]
-        return most[coupling[most] > STRONG_COUPLING * np.median(coupling)]
+Arrays = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 class Eigensystem(NamedTuple):
@@ -74,9 +55,15 @@ class Eigensystem(NamedTuple):
     trace_defect: float
 
 
-def partitioned_eigensystem(matrix: NearlyDiagonal) -> Eigensystem | None:
-    """All eigenpairs of B; None where an eigenvalue is missing or counted twice."""
-    diagonal, size, strong = matrix.diagonal, len(matrix.diagonal), matrix.strongly_coupled()
+def partitioned_eigensystem(diagonal: np.ndarray, perturbation: np.ndarray) -> Eigensystem | None:
+    """All eigenpairs of B; None where an eigenvalue is missing or counted twice.
+
+    Args:
+        diagonal: d, (M,) float64, ascending.
+        perturbation: E, (M, M) float32 with 0 on the diagonal.
+    """
+    matrix = diagonal, perturbation, np.ascontiguousarray(perturbation.T)  # to read columns as rows
+    size, strong = len(diagonal), strongly_coupled(*matrix[1:])
     width = SIZE - 2 * MARGIN - len(strong)
     edges = [*range(0, size - width // 2, width), size]
     with np.errstate(all="ignore"):  # a mode of R may stand exactly at σ or λ
@@ -85,7 +72,7 @@ def partitioned_eigensystem(matrix: NearlyDiagonal) -> Eigensystem | None:
         borders = [0.5 * diagonal[edge - 1 : edge + 1].sum() for edge in edges[1:-1]]
         cuts = [_cut(*two, at) for two, at in zip(pairwise(levels), borders, strict=True)]
         limits = pairwise([-np.inf, *cuts, np.inf])
-        parts = [_extend(matrix, *each, *ends) for each, ends in zip(windows, limits, strict=True)]
+        parts = [_extend(matrix, *each) for each in zip(windows, limits, strict=True)]
     values, rows, coupling = (np.concatenate(part) for part in zip(*parts, strict=True))
     trace_defect = abs(values.real.sum() - diagonal.sum())
     if len(values) != size or not np.isfinite(coupling).all() or trace_defect > MAX_TRACE_DEFECT:
@@ -93,7 +80,14 @@ def partitioned_eigensystem(matrix: NearlyDiagonal) -> Eigensystem | None:
     return Eigensystem(values, rows, coupling, trace_defect)
 
 
-def _solve_window(matrix: NearlyDiagonal, strong: np.ndarray, first: int, last: int):
+def strongly_coupled(perturbation: np.ndarray, transposed: np.ndarray) -> np.ndarray:
+    """Places of the modes that couple most to all others, if they stand out."""
+    coupling = np.abs(np.einsum("kl,kl->k", perturbation, transposed))
+    most = np.argsort(-coupling)[:MAX_STRONG]
+    return most[np.flatnonzero(coupling[most] > STRONG_COUPLING * np.median(coupling))]
+
+
+def _solve_window(matrix: Arrays, strong: np.ndarray, first: int, last: int) -> Arrays:
     """C (K,), λ (K,) and x_C (K, K) for the modes `first` to `last`, margins and strong ones."""
     diagonal, perturbation, transposed = matrix
     near = np.arange(max(first - MARGIN, 0), min(last + MARGIN, len(diagonal)))
@@ -118,21 +112,15 @@ def _cut(lower: np.ndarray, upper: np.ndarray, border: float) -> float:
     return float(near[widest] + near[widest + 1]) / 2.0
 
 
-def _extend(
-    matrix: NearlyDiagonal,
-    modes: np.ndarray,
-    values: np.ndarray,
-    inner: np.ndarray,
-    low: float,
-    high: float,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """λ (n,) with low <= λ_r < high, their x (n, M) on all modes, and |x_R| / |x_C| (n,)."""
-    inside = (values.real >= low) & (values.real < high)
+def _extend(matrix: Arrays, window: Arrays, limits: tuple[float, float]) -> Arrays:
+    """λ (n,) with λ_r inside the limits, their x (n, M) on all modes, and |x_R| / |x_C| (n,)."""
+    (diagonal, _, transposed), (modes, values, inner) = matrix, window
+    inside = (values.real >= limits[0]) & (values.real < limits[1])
     values, inner = values[inside], inner[inside]
-    rows = inner @ matrix.transposed[modes]
+    rows = inner @ transposed[modes]
     (pair,) = np.nonzero(values.imag > 0.0)
-    complex_rows = (rows[pair] + 1j * rows[pair + 1]) / (values[pair, None] - matrix.diagonal)
-    rows /= values.real[:, None] - matrix.diagonal
+    complex_rows = (rows[pair] + 1j * rows[pair + 1]) / (values[pair, None] - diagonal)
+    rows /= values.real[:, None] - diagonal
     rows[pair], rows[pair + 1] = complex_rows.real, complex_rows.imag
     rows[:, modes] = 0.0
     squares = np.stack([np.einsum("km,km->k", part, part) for part in (rows, inner)])

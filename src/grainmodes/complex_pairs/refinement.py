@@ -25,14 +25,9 @@ from grainmodes.complex_pairs.invariant_subspaces import Subspaces
 from grainmodes.complex_pairs.partitioning import Eigensystem
 from grainmodes.response.stability import REAL_TOLERANCE
 
-BLOCK_SIZE = 256
-"""Columns that LAPACK inverts at once. `scipy.linalg.inv` takes a fifth longer."""
-
-RESIDUAL_TOLERANCE = 1e-4
-"""Residual of a converged subspace, in units of max|K|; λ is right to about its square."""
-
-MAX_STEPS = 3
-"""Newton steps, after which an unconverged subspace will not converge."""
+RESIDUAL_TOLERANCE, MAX_STEPS = 1e-4, 3
+"""Residual of a converged subspace, in units of max|K|, to be reached in so many Newton steps; λ is
+right to about its square."""
 
 MAX_NEAR_DEGENERATE, MAX_UNCONVERGED = 0.25, 0.125
 """Near-degenerate neighbours per mode, and share of unconverged subspaces after a step, above which
@@ -61,24 +56,21 @@ class Eigenbasis(NamedTuple):
         norms = np.linalg.norm(vectors, axis=0)
         columns = (vectors / norms).astype(np.float32)
         factors, pivots, _ = lapack.sgetrf(columns.T)
-        inverse, _ = lapack.sgetri(factors, pivots, lwork=BLOCK_SIZE * len(norms))
+        inverse, _ = lapack.sgetri(factors, pivots, lwork=256 * len(norms))  # 256 columns at once
         return cls(columns, norms, inverse.T)
 
 
 def near_degenerate(values: np.ndarray, coupling: np.ndarray) -> np.ndarray:
-    """Places (P, 2) of two eigenvalues that may be a pair or real, none of them twice.
-
-    They are a pair close to the real axis or two real neighbours, the nearest ones first.
-    """
+    """Places (P, 2) of low pairs and close real neighbours, nearest first, no eigenvalue twice."""
     limit = np.maximum(MIN_GAP, GAP_PER_COUPLING * coupling**2)
     (pairs,) = np.nonzero((values.imag > 0.0) & (2.0 * values.imag < limit))
     (real,) = np.nonzero(values.imag == 0.0)
     real = real[np.argsort(values.real[real], kind="stable")]
     gap = np.diff(values.real[real])
     (close,) = np.nonzero(gap < np.maximum(limit[real[:-1]], limit[real[1:]]))
-    places, free = [*zip(pairs, pairs + 1, strict=True)], np.ones(len(values), bool)
-    for first in close[np.argsort(gap[close], kind="stable")]:
-        two = real[first : first + 2]
+    neighbours, free = np.stack([real[:-1], real[1:]], axis=1), np.ones(len(values), bool)
+    places = [*np.stack([pairs, pairs + 1], axis=1)]
+    for two in neighbours[close[np.argsort(gap[close], kind="stable")]]:
         if free[two].all():
             places.append(two)
             free[two] = False
@@ -95,9 +87,7 @@ def refined_subspaces(
     unsure = near_degenerate(found.values, found.coupling)
     if len(unsure) > MAX_NEAR_DEGENERATE * len(found.values):
         return None
-    isolated = found.values.imag > REAL_TOLERANCE
-    isolated[unsure] = False
-    (isolated,) = np.nonzero(isolated)
+    isolated = np.setdiff1d(np.flatnonzero(found.values.imag > REAL_TOLERANCE), unsure)
     modes = np.vstack([unsure, np.stack([isolated, isolated + 1], axis=1)])
     right, left = (rows[modes].astype(float) for rows in (basis.vectors.T, basis.inverse))
     subspaces = Subspaces.spanned_by(matrix, right, left)
@@ -124,8 +114,8 @@ def _newton_step(
     each, block = np.arange(len(modes))[:, None], start.block
 
     def product(rows: np.ndarray, matrix: np.ndarray) -> np.ndarray:
-        flat = rows.reshape(-1, len(values)).astype(np.float32, copy=False)
-        return (flat @ matrix).reshape(rows.shape)
+        flat = rows.reshape(-1, len(values)).astype(np.float32, copy=False) @ matrix
+        return np.asarray(flat).reshape(rows.shape)
 
     right, left = product(start.right_residual, inverse.T), product(start.left_residual, vectors)
     right[each, :, modes] = left[each, :, modes] = 0.0
@@ -135,7 +125,9 @@ def _newton_step(
 
 
 @np.errstate(divide="ignore", invalid="ignore", over="ignore")  # the subspace stays unconverged
-def _sylvester(c: np.ndarray, block: np.ndarray, values: np.ndarray, norms: np.ndarray):
+def _sylvester(
+    c: np.ndarray, block: np.ndarray, values: np.ndarray, norms: np.ndarray
+) -> np.ndarray:
     """The x (P, 2, M) of x B − Λ x = c. On α Re u + β Im u of a pair Λ multiplies α − iβ by λ."""
     (pair,) = np.nonzero(values.imag)
     one, two = pair[::2], pair[1::2]
@@ -148,4 +140,4 @@ def _sylvester(c: np.ndarray, block: np.ndarray, values: np.ndarray, norms: np.n
     scale = 1.0 / (p * s - q * r)
     x = np.stack([z[:, 0] * s - z[:, 1] * r, z[:, 1] * p - z[:, 0] * q], axis=1) * scale[:, None]
     x.real[:, :, two] = -x.imag[:, :, one] / ratio
-    return x.real
+    return np.real(x)

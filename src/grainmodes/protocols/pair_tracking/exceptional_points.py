@@ -79,7 +79,7 @@ class Exponent(NamedTuple):
 
     value: float
     error: float
-    count: int
+    n_states: int
 
 
 class ExceptionalPoint(NamedTuple):
@@ -93,6 +93,11 @@ class ExceptionalPoint(NamedTuple):
     above: float
     strain: float
     neighbours: tuple[NeighbourState, ...] = ()
+
+    @classmethod
+    def between(cls, kind: int, one: float, other: float) -> ExceptionalPoint:
+        """One that is known only to lie between two strains, in any order."""
+        return cls(kind, min(one, other), max(one, other), float(np.mean([one, other])))
 
     def exponent(self, real: bool) -> Exponent:
         """The exponent on the side where the two modes are real, or where they are a pair."""
@@ -142,20 +147,20 @@ def _classify(
     pair: TwoModeState, other: EquilibriumState, jumped: bool, choices: Shear
 ) -> ExceptionalPoint:
     """What happened in a bracket; `jumped`: the dynamics had to find its upper end."""
-    ends = sorted((pair.strain, other.packing.strain))
+    low, high = sorted((pair.strain, other.packing.strain))
     if jumped:
-        return ExceptionalPoint(JUMP, *ends, np.mean(ends))
+        return ExceptionalPoint.between(JUMP, low, high)
     if any(count_network_changes(pair.equilibrium, other)):
-        return ExceptionalPoint(CONTACT_CHANGE, *ends, np.mean(ends))
+        return ExceptionalPoint.between(CONTACT_CHANGE, low, high)
     real = follow_modes(pair, other)
     if real is None or real.is_pair:
-        return ExceptionalPoint(LOST, *ends, np.mean(ends))
+        return ExceptionalPoint.between(LOST, low, high)
     part = pair.subspace.discriminant / (pair.subspace.discriminant - real.subspace.discriminant)
     strain = pair.strain + part * (real.strain - pair.strain)
     below, above = sorted((pair, real), key=lambda state: state.strain)
     neighbours = [*_branch(below, strain, -DISTANCES, choices)][::-1]
     neighbours += _branch(above, strain, DISTANCES, choices)
-    return ExceptionalPoint(COALESCENCE, *ends, strain, tuple(neighbours))
+    return ExceptionalPoint(COALESCENCE, low, high, strain, tuple(neighbours))
 
 
 def _branch(

@@ -76,4 +76,5 @@ def linear_ranges(equilibrium: EquilibriumState, motions: np.ndarray) -> np.ndar
     relative = translation[near.i[loaded]] - translation[near.j[loaded]]
     excursion = np.abs(np.einsum("ca,cap->cp", near.normal[loaded], relative))
     amplitude = 1.0 / (excursion / margin[:, None]).max(axis=0)
-    return amplitude**2 * (np.abs(translation) ** 2).sum(axis=1).mean(axis=0) / 2.0
+    mean_square = (np.abs(translation) ** 2).sum(axis=1).mean(axis=0)
+    return np.asarray(amplitude**2 * mean_square / 2.0)

@@ -175,8 +175,7 @@ class PairTracking:
         try:
             point = locate_exceptional_point(pair, other, self.shear, self.choices.bracket)
         except ArithmeticError:
-            ends = sorted((pair.strain, other.packing.strain))
-            point = ExceptionalPoint(LOST, *ends, float(np.mean(ends)))
+            point = ExceptionalPoint.between(LOST, pair.strain, other.packing.strain)
         self.located.append(LocatedPoint(track, born, point, pair))
         record, ends = self.tracks[track], (point.below, point.above)
         if born:
