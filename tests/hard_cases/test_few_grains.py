@@ -94,4 +94,4 @@ def test_a_seed_that_needs_ten_times_the_usual_iterations():
     begun = Block(start.variables, start.attributes | {"config": config})
     block = packing_block(begun, 0.84, hasty, "hertz")
     assert block.variables["converged"].tolist() == [1, 0, 1]
-    assert re.search(r"max\|F\| = .* iterations", block.attributes["failures"]["21"])
+    assert re.search(r"max\|F\| < .* iterations", block.attributes["failures"]["21"])

@@ -68,7 +68,8 @@ def packing_block(start: Block, phi: float, compression: Compression, normal: st
         relaxed = compress_to(grid, phi, normal_law, compression)
         if not relaxed.converged:
             raise ArithmeticError(
-                f"max|F| = {relaxed.max_force:.1e} after {relaxed.iterations} iterations"
+                f"balance at phi = {phi}: expected max|F| < {compression.force_tolerance:.1e}, got "
+                f"{relaxed.max_force:.1e} after {relaxed.iterations} iterations"
             )
         return packing_row(relaxed.packing, normal_law) | {
             "phi_jamming": grid.phi_jamming,

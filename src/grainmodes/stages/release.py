@@ -88,7 +88,8 @@ def check_pair(start: UnstableState, interaction: Interaction) -> None:
     """
     if start.eigenvalue.imag <= REAL_TOLERANCE:
         raise ArithmeticError(
-            f"the pair: expected Im above {REAL_TOLERANCE:.1e}, got {start.eigenvalue.imag:.1e}"
+            f"eigenvalue of the pair: expected Im above {REAL_TOLERANCE:.1e}, "
+            f"got {start.eigenvalue.imag:.1e}"
         )
     residual = start.residual(interaction)
     if not residual < MAX_RESIDUAL:

@@ -24,7 +24,7 @@ def jammed_packing(block: Block, number: int, interaction: Interaction) -> tuple
         BlockError: it is not in force balance, although it should be.
     """
     if not block.variables["converged"][number]:
-        raise ArithmeticError("the packing did not reach its force balance")
+        raise ArithmeticError("the packing did not reach force balance")
     packing = packing_in_row(block, number)
     force, _ = max_force_and_torque(net_force(packing, interaction))
     mean = mean_contact_force(packing, interaction)

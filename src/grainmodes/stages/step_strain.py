@@ -24,7 +24,8 @@ def step_strain_block(packings: Block, law: ContactLaw, step: StepStrain) -> Blo
         result = step_strain(packing, interaction, step)
         if not result.converged:
             raise ArithmeticError(
-                f"step strain {result.strain}: max|F| = {result.max_force:.1e}, max|2T/d| = "
+                f"step strain {result.strain}: expected max|F| and max|2T/d| < "
+                f"{step.force_tolerance:.1e}, got {result.max_force:.1e} and "
                 f"{result.max_torque:.1e} after {result.iterations} iterations"
             )
         return {

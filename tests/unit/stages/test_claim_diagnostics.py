@@ -66,7 +66,7 @@ def test_a_forward_step_gives_the_rigidity_of_theory_but_for_its_slope(name):
 
 def test_a_forward_step_that_ends_without_balance_says_so():
     step = StepStrain(strain=1e-5, relaxation="damped", max_steps=40)
-    with pytest.raises(ArithmeticError, match=r"max\|F\| = .*, 40 iterations"):
+    with pytest.raises(ArithmeticError, match=r"expected .* after 40 iterations"):
         forward_rigidity(reference(SMALL)[1], elastic(SMALL, KT), step)
 
 
@@ -184,7 +184,7 @@ def test_an_unjammed_packing_has_no_rigidity():
     assert "hessian_difference" not in found and found["converged"][0] == 1
 
 
-def test_a_probe_that_fails_leaves_its_sentence_and_the_others(monkeypatch):
+def test_a_diagnostic_that_fails_leaves_its_sentence_and_the_others(monkeypatch):
     def hopeless(*arguments):
         raise ArithmeticError("it did not end")
 
@@ -192,7 +192,7 @@ def test_a_probe_that_fails_leaves_its_sentence_and_the_others(monkeypatch):
     short = StepStrain(relaxation="damped", max_steps=40)
     found = row(reference(SMALL)[1], KT, short)
     sentence = found.attributes["failures"]["0"]
-    assert sentence.count("forward_rigidity: max|F| =") == 3
+    assert sentence.count("forward_rigidity: step strain") == 3
     assert sentence.endswith("compressed_pairs: it did not end")
     for name in ("g_forward_by_strain", "complex_pairs_frictional", "jammed_frictional"):
         assert np.isnan(found.variables[name]).all()

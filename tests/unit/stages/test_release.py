@@ -95,7 +95,7 @@ def test_a_sample_without_a_pair_says_so(block):
         ("unstable_eigenvalue_imag", 1e-7, "residual"),
     ],
 )
-def test_a_pair_that_is_none_of_the_state_is_a_failed_row(name, value, sentence):
+def test_a_pair_that_does_not_belong_to_the_state_is_a_failed_row(name, value, sentence):
     pairs = complex_pairs_block()
     pairs.variables[name][0] = value
     failed = release_block(pairs, state()[1], CHOICES)

@@ -126,7 +126,8 @@ def _final_balance(
     solved = newton(backbone, interaction, tolerance, MAX_NEWTON_ITERATIONS)
     if not solved.converged:
         raise ArithmeticError(
-            f"frictional compression: max|F| = {solved.max_force:.1e}, max|2T/d| = "
-            f"{solved.max_torque:.1e} after {steps} time steps and {solved.iterations} iterations"
+            f"frictional compression: expected max|F| and max|2T/d| < {tolerance:.1e}, got "
+            f"{solved.max_force:.1e} and {solved.max_torque:.1e} after {steps} time steps and "
+            f"{solved.iterations} iterations"
         )
     return CompressedState(solved.packing, True, steps)

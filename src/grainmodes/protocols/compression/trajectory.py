@@ -77,7 +77,10 @@ def place_at_random(n: int, seed: int, normal: NormalLaw, compression: Compressi
     overlapping = Packing(points, diameter, mass, 1.0).at(compression.initial_phi)
     relaxed = relax_fire_large_steps(overlapping, normal, 1e-300, 0.0, compression.max_iterations)
     if relaxed.max_force > 0.0:
-        raise CompressionError(f"random placement of {n} grains kept overlaps")
+        raise CompressionError(
+            f"random placement of {n} grains: expected no overlaps, got max|F| = "
+            f"{relaxed.max_force:.1e} after {relaxed.iterations} iterations"
+        )
     return Trajectory(relaxed.packing, 0, compression.initial_phi, relaxed.iterations)
 
 
@@ -116,7 +119,8 @@ def _compress_one_step(
         relaxed = relax_fire_large_steps(packing, normal, UNJAMMED_FORCE, balance, most)
     if relaxed.iterations >= most:
         raise CompressionError(
-            f"phi = {phi}: max|F| = {relaxed.max_force:.1e} after {relaxed.iterations} iterations"
+            f"compression to phi = {phi}: expected a balance within {most} iterations, got "
+            f"max|F| = {relaxed.max_force:.1e}"
         )
     phi_jamming = phi if is_unjammed(relaxed.packing, normal) else before.phi_jamming
     iterations = before.iterations + relaxed.iterations

@@ -93,7 +93,7 @@ def forward_rigidity(
     before = backbone(packing, threshold)
     after = _relax(before.sheared(before.strain + protocol.strain), interaction, protocol)
     if not after.converged:
-        raise ArithmeticError(f"max|F| = {after.max_force:.1e}, {after.iterations} iterations")
+        raise ArithmeticError(unbalanced(after, protocol))
     at_rest, strained = (stress(state, interaction)[0, 1] for state in (before, after.packing))
     return float((strained - at_rest) / protocol.strain)
 
@@ -133,6 +133,15 @@ def relaxed_steps(
         for step in (protocol.strain, -protocol.strain)
     )
     return forward, backward
+
+
+def unbalanced(relaxed: RelaxationResult, protocol: StepStrain) -> str:
+    """The sentence that says why a relaxation did not end in balance."""
+    return (
+        f"step strain {protocol.strain}: expected max|F| and max|2T/d| < "
+        f"{protocol.force_tolerance:.1e}, got {relaxed.max_force:.1e} and "
+        f"{relaxed.max_torque:.1e} after {relaxed.iterations} iterations"
+    )
 
 
 def _relax(packing: Packing, interaction: Interaction, protocol: StepStrain) -> RelaxationResult:

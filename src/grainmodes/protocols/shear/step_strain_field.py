@@ -17,7 +17,7 @@ from grainmodes.packing.state import (
     rattlers,
 )
 from grainmodes.parameters.strain import StepStrain
-from grainmodes.protocols.shear.step_strain import relaxed_steps
+from grainmodes.protocols.shear.step_strain import relaxed_steps, unbalanced
 
 
 def simulated_field(
@@ -33,10 +33,7 @@ def simulated_field(
     steps = relaxed_steps(backbone, interaction, protocol)
     for step in steps:
         if not step.converged:
-            worst = max(step.max_force, step.max_torque)
-            raise ArithmeticError(
-                f"step strain: max|F| = {worst:.1e}, {step.iterations} iterations"
-            )
+            raise ArithmeticError(unbalanced(step, protocol))
     forward, backward = (nonaffine_motion(backbone, step.packing) for step in steps)
     u = (forward - backward) / (2.0 * protocol.strain)
     u[:, :2] -= u[:, :2].mean(axis=0)
