@@ -27,8 +27,8 @@ def figure(arguments: Namespace) -> None:
     """An ensemble, or files of single samples → one figure."""
     from grainmodes.figures import draw
 
-    asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "bin_density", "seed")}
-    options = {name: value for name, value in asked.items() if value is not None}
+    given = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "bin_density", "seed")}
+    options = {name: value for name, value in given.items() if value is not None}
     draw(arguments.figure, _source(arguments), arguments.output, options)
 
 
@@ -47,8 +47,8 @@ def film(arguments: Namespace) -> None:
     """Released samples → the film of one of them."""
     from grainmodes.figures.paper_c import film
 
-    asked = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "seed")}
-    options = {name: value for name, value in asked.items() if value is not None}
+    given = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "seed")}
+    options = {name: value for name, value in given.items() if value is not None}
     film.write(arguments.data, arguments.output, options)
 
 
