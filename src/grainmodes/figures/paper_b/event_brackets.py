@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import appearance, labels
 from grainmodes.figures.shared.appearance import AFTER, BEFORE
+from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.event_rows import SAMPLE, critical_strain, identity, sample_with
 from grainmodes.figures.shared.sample_files import joined
 from grainmodes.figures.shared.selection import Options
@@ -30,7 +31,7 @@ COLUMNS = {
     "end": ("", "before, after: the state is that end of its bracket; else empty"),
     "strain": ("1", "strain of a state of the shear"),
     "distance": ("1", "its strain minus that of the event in the closest bracket"),
-    "stress": ("k_N", "its stress (sigma_xy + sigma_yx) / 2"),
+    "stress": (RIGIDITY_UNIT, "its stress (sigma_xy + sigma_yx) / 2"),
 }
 
 

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import event_maps, labels
+from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.grain_maps import (
     Scale,
     add_colour_bar,
@@ -29,7 +30,10 @@ VARIABLES = {side: f"lowest_mode_{side}" for side in SIDES}
 
 COLUMNS = {
     **event_maps.COLUMNS,
-    **{f"eigenvalue_{side}": ("k_N", f"smallest eigenvalue {side} the event") for side in SIDES},
+    **{
+        f"eigenvalue_{side}": (RIGIDITY_UNIT, f"smallest eigenvalue {side} the event")
+        for side in SIDES
+    },
     **field_columns("before", "1", "its eigenvector before the event, norm 1, times N^(1/2)"),
     **field_columns("after", "1", "the same after it; empty: a grain that carries no load"),
 }

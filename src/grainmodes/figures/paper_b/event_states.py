@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import AFTER, BEFORE
+from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.event_rows import SAMPLE, rows_from_variables, sample_with
 from grainmodes.figures.shared.sample_files import joined
 from grainmodes.figures.shared.selection import Options
@@ -31,11 +32,17 @@ COLUMNS = {
     **SAMPLE,
     "distance": ("1", "strain from the event to the state, right to the width of its bracket"),
     "strain": ("1", "strain of the state"),
-    "lowest_eigenvalue": ("k_N", "smallest eigenvalue of the Jacobian but the translations"),
-    "g": ("k_N", "rigidity by linear response"),
-    "g_numerical": ("k_N", "rigidity as slope of the stress, away from the event"),
-    "eigenvalue_change": ("k_N", "distance of the eigenvalue to that at the edge of the event"),
-    "g_change": ("k_N", "distance of g to that at the edge of the event"),
+    "lowest_eigenvalue": (
+        RIGIDITY_UNIT,
+        "smallest eigenvalue of the Jacobian but the translations",
+    ),
+    "g": (RIGIDITY_UNIT, "rigidity by linear response"),
+    "g_numerical": (RIGIDITY_UNIT, "rigidity as slope of the stress, away from the event"),
+    "eigenvalue_change": (
+        RIGIDITY_UNIT,
+        "distance of the eigenvalue to that at the edge of the event",
+    ),
+    "g_change": (RIGIDITY_UNIT, "distance of g to that at the edge of the event"),
     "changes": ("1", "contacts that differ from those at the edge of the event"),
 }
 

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import appearance, labels
+from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.release_rows import (
     RUN,
     ReleasedSample,
@@ -26,7 +27,7 @@ COLUMNS = {
     **RUN,
     "time": ("t_0", "time of a record"),
     "m": ("d^2", "mean square displacement M"),
-    "pressure": ("k_N", "pressure"),
+    "pressure": (RIGIDITY_UNIT, "pressure"),
     "rate_damped": ("1/t_0", "growth rate of the pair under this damping"),
     "rate_fitted": ("1/t_0", "growth rate fitted to M; NaN: M did not grow"),
 }

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import appearance, labels
+from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.release_rows import (
     END_TIME,
     RUN,
@@ -35,8 +36,8 @@ COLUMNS = {
     **RUN,
     "time": ("t_0", "time of a record"),
     "m": ("d^2", "mean square displacement M"),
-    "pressure": ("k_N", "pressure"),
-    "stress_xy": ("k_N", "stress sigma_xy"),
+    "pressure": (RIGIDITY_UNIT, "pressure"),
+    "stress_xy": (RIGIDITY_UNIT, "stress sigma_xy"),
     **END_TIME,
 }
 

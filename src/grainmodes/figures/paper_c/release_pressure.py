@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import AFTER, BEFORE
+from grainmodes.figures.shared.columns import ENERGY_UNIT, RIGIDITY_UNIT
 from grainmodes.figures.shared.release_rows import (
     RUN,
     ReleasedSample,
@@ -34,12 +35,12 @@ COLUMNS = {
     **RUN,
     "side": ("", "before: the start of the run; after: its end"),
     "kind": ("", "contacts: a bin of r . f; grains: a number of contacts z"),
-    "binary": ("k_N d^2", "middle of a bin of P_ij = r . f"),
-    "density": ("1/(k_N d^2)", "probability density of P_ij"),
+    "binary": (ENERGY_UNIT, "middle of a bin of P_ij = r . f"),
+    "density": (f"1/({ENERGY_UNIT})", "probability density of P_ij"),
     "count": ("1", "contacts in the bin, or grains with z contacts"),
     "z": ("1", "number of contacts"),
-    "pressure": ("k_N", "mean P_i of the grains with z contacts"),
-    "pressure_error": ("k_N", "its standard error"),
+    "pressure": (RIGIDITY_UNIT, "mean P_i of the grains with z contacts"),
+    "pressure_error": (RIGIDITY_UNIT, "its standard error"),
 }
 
 

@@ -28,7 +28,7 @@ from grainmodes.figures.shared.selection import Options
 COLUMNS = {
     **RUN,
     "time": ("t_0", "time of a spectrum"),
-    "imaginary": ("k_N", "imaginary part of a pair of J / M; NaN: the spectrum has no pair"),
+    "imaginary": ("1/t_0^2", "imaginary part of a pair of J / M; NaN: the spectrum has no pair"),
     "pairs": ("1", "complex pairs of the spectrum"),
     "negative": ("1", "real eigenvalues below 0 of the spectrum"),
     **END_TIME,

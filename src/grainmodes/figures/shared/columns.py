@@ -1,14 +1,25 @@
 """Columns that several figures share: column → (unit, meaning)."""
 
+from grainmodes.dataset.units import ENERGY, MODULUS, Laws, Unit
+
+
+def unit_by_law(unit: Unit) -> str:
+    """A unit under both normal laws."""
+    return f"{unit.text(Laws('hertz'))}; harmonic: {unit.text(Laws('harmonic'))}"
+
+
 POINT = {
     "n": ("1", "number of grains N"),
     "phi": ("1", "area fraction"),
-    "kt": ("k_N", "tangential stiffness k_T"),
+    "kt": ("1", "tangential stiffness over normal stiffness, k_T / k_N"),
 }
 """Columns that say at which point of the grid a row lies."""
 
 LAW = {"law": ("-", "normal contact law")}
 SEED = {"seed": ("1", "seed of the sample")}
 
-RIGIDITY_UNIT = "k_N d^(1/2); harmonic: k_N"
+RIGIDITY_UNIT = unit_by_law(MODULUS)
 """Unit of moduli and stresses under either normal contact law."""
+
+ENERGY_UNIT = unit_by_law(ENERGY)
+"""Unit of energies under either normal contact law."""
