@@ -2,7 +2,7 @@
 # make test       the tests, on all cores (minutes)
 # make test-slow  the slow physics and large systems      make test-all   both
 # make pardiso    add a faster sparse factorisation to the environment (x86-64, MKL's licence)
-# make lint       style and the walls between modules
+# make lint       style, the walls between rooms, and types
 # make clean      forget results, compiled kernels and Snakemake's bookkeeping
 #
 # Needed on the machine: Python >= 3.11 with pip, a C compiler, make. CONFIG=config/paper_a.yaml
@@ -41,9 +41,10 @@ lint: $(READY)
 	$(BIN)/ruff format --check .
 	$(BIN)/snakefmt --check --line-length 100 Snakefile workflow
 	$(BIN)/lint-imports
+	$(BIN)/mypy --no-error-summary | $(BIN)/mypy-baseline filter
 
 clean:
-	rm -rf results/* .snakemake .numba_cache .pytest_cache .ruff_cache .import_linter_cache
+	rm -rf results/* .snakemake .numba_cache .pytest_cache .ruff_cache .import_linter_cache .mypy_cache
 
 $(READY): requirements.lock
 	$(PYTHON) -m venv .venv
