@@ -1,4 +1,4 @@
-"""The ensemble under question, and the report of the answers."""
+"""The ensemble that is checked, and the report of the consistency checks and their results."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import xarray
 
 from grainmodes.ensemble import open_ensemble
 
-ANSWERS = pytest.StashKey[list[str]]()
+RESULTS = pytest.StashKey[list[str]]()
 
 
 def pytest_addoption(parser) -> None:
@@ -22,19 +22,19 @@ def pytest_addoption(parser) -> None:
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
-    """Note one line per question; no times, so that the same ensemble has the same report."""
+    """Add one line per check, without times, so that equal ensembles have equal reports."""
     report = yield
     if report.when == "call" or report.skipped:
-        question = item.name.removeprefix("test_").replace("_", " ")
+        check = item.name.removeprefix("test_").replace("_", " ")
         why = f": {report.longrepr[2].removeprefix('Skipped: ')}" if report.skipped else ""
-        answers = item.session.stash.setdefault(ANSWERS, [])
-        answers.append(f"{report.outcome:8}{question}{why}")
+        results = item.session.stash.setdefault(RESULTS, [])
+        results.append(f"{report.outcome:8}{check}{why}")
     return report
 
 
 def pytest_sessionfinish(session) -> None:
-    """Write the report."""
-    lines = [*session.stash.get(ANSWERS, []), ""]
+    """Write the report: one line per check with its result."""
+    lines = [*session.stash.get(RESULTS, []), ""]
     session.config.getoption("report").write_text("\n".join(lines), encoding="utf-8")
 
 
@@ -47,13 +47,13 @@ def ensemble(request) -> Iterator[xarray.Dataset]:
 
 @pytest.fixture(scope="session")
 def converged(ensemble) -> xarray.DataArray:
-    """Which samples (n, phi, kt, seed) reached the accuracy asked for."""
+    """The samples that reached the requested accuracy, bool (n, phi, kt, seed)."""
     return ensemble["converged"] == 1
 
 
 @pytest.fixture(scope="session")
-def asked(ensemble) -> xarray.DataArray:
-    """Which samples (n, phi, kt, seed) the grids of the study ask for."""
+def requested(ensemble) -> xarray.DataArray:
+    """The samples that the grids of the study request, bool (n, phi, kt, seed)."""
     return ensemble["converged"].notnull()
 
 

@@ -1,7 +1,8 @@
-"""Questions that every ensemble must answer well before a figure of it is believed.
+"""Consistency checks that every ensemble must pass before its figures can be trusted.
 
-They hold whatever the grid: force balance as deep as asked, moduli that add up, theory equal to
-simulation where the step strain changed no contact, fractions between 0 and 1.
+They do not depend on the grid: forces balance to the requested tolerance, the parts of a modulus
+add up, theory equals simulation where the step strain changed no contact, and fractions lie between
+0 and 1.
 """
 
 from __future__ import annotations
@@ -10,33 +11,33 @@ import numpy as np
 import pytest
 
 THEORY_AGAINST_SIMULATION = 1e-5
-"""Largest difference of g and g_simulated where no contact changed, relative to g; twice the stated
-error of the simulation comes on top, for the softest samples."""
+"""Largest difference of g and g_simulated where no contact changed, relative to g. Twice the stated
+error of the simulation is added, which matters for the softest samples."""
 
 MODE_SUM = 1e-8
-"""Largest difference of g from all modes and from one solve, relative to its affine part."""
+"""Largest difference of g from all modes and g from one solve, relative to its affine part."""
 
 SUM_OF_PARTS = 1e-10
 """Largest relative difference of a modulus and the sum of its parts."""
 
-SMALLEST_PART_CONVERGED = 0.5
-"""Smallest part of the samples of a point that must have converged."""
+MIN_SHARE_CONVERGED = 0.5
+"""Smallest share of the samples of a point that must have converged."""
 
 
 def _has(ensemble, *names: str) -> None:
     absent = [name for name in names if name not in ensemble]
     if absent:
-        pytest.skip(f"the study asked for no {', '.join(absent)}")
+        pytest.skip(f"the study did not request {', '.join(absent)}")
 
 
-def _all(claim) -> bool:
-    return bool(np.all(claim))
+def _all(condition) -> bool:
+    return bool(np.all(condition))
 
 
-def test_most_samples_converged(ensemble, converged, asked):
-    part = converged.where(asked).mean("seed")
-    poor = part.where(part < SMALLEST_PART_CONVERGED, drop=True)
-    assert poor.size == 0, f"few samples converged at {poor.to_dataframe('part').dropna()}"
+def test_most_samples_converged(ensemble, converged, requested):
+    share = converged.where(requested).mean("seed")
+    poor = share.where(share < MIN_SHARE_CONVERGED, drop=True)
+    assert poor.size == 0, f"few samples converged at {poor.to_dataframe('share').dropna()}"
 
 
 def test_forces_balance(ensemble, converged, protocol):

@@ -1,15 +1,15 @@
-# Questions to the ensemble; a study whose ensemble fails one of them has no checks.txt.
+# Consistency checks of the ensemble; if one of them fails, the study has no checks.txt.
 
 
 rule checks:
     input:
         ensemble=rules.ensemble.output,
-        questions="workflow/checks/test_ensemble.py",
+        checks="workflow/checks/test_ensemble.py",
         report="workflow/checks/conftest.py",
     output:
         f"{STUDY}/checks.txt",
     message:
-        "Question the ensemble."
+        "Check the consistency of the ensemble."
     shell:
-        "python -m pytest -p no:cacheprovider {input.questions}"
+        "python -m pytest -p no:cacheprovider {input.checks}"
         " --ensemble {input.ensemble} --report {output}"

@@ -51,7 +51,7 @@ def test_what_the_ensemble_lacks_is_not_tested_and_named(name):
     assert NEEDED[name] in verdict.explanation
 
 
-def test_without_releases_nothing_is_asked():
+def test_without_releases_nothing_is_tested():
     assert {v.verdict for v in verdicts(claim_fixtures.ensemble()).values()} == {NOT_TESTED}
 
 
@@ -60,7 +60,7 @@ def test_one_sample_decides_nothing():
     assert {v.verdict for v in verdicts(one).values()} <= {NOT_TESTED, NOT_RESOLVED}
 
 
-def test_samples_without_a_second_instability_are_told():
+def test_samples_without_a_second_instability_are_counted():
     ensemble = claim_fixtures_release.ensemble()
     ensemble["release_second_time"][..., :3, :] = np.nan
     verdict = verdicts(ensemble)["C6"]
@@ -72,17 +72,17 @@ def test_samples_without_a_second_instability_are_told():
     assert "second instability" in verdict.explanation
 
 
-def test_the_depth_and_the_run_in_between_are_told():
+def test_the_note_has_the_depth_and_the_run_in_between():
     found = verdicts(claim_fixtures_release.ensemble())
     assert "M and A oscillate by 0.2" in found["C5"].explanation
     assert "η_0 = 1 ω_i" in found["C7"].explanation
     assert "at the rate 0.5005096(53) ω_i" in found["C7"].explanation
 
 
-def test_which_runs_come_to_a_second_instability_is_told():
+def test_the_note_counts_runs_that_reach_a_second_instability():
     ensemble = claim_fixtures_release.ensemble()
     second = ensemble["release_second_time"]
     ensemble["release_second_time"] = second.where(second["damping"] == 0)
-    told = verdicts(ensemble)["C7"].explanation
-    for times, came in ((0, 6), (0.1, 0), (1, 0)):
-        assert f"At η_0 = {times} ω_i, φ = 0.9, κ = 1 {came} of 6 reach a second" in told
+    explanation = verdicts(ensemble)["C7"].explanation
+    for times, reached in ((0, 6), (0.1, 0), (1, 0)):
+        assert f"At η_0 = {times} ω_i, φ = 0.9, κ = 1 {reached} of 6 reach a second" in explanation

@@ -69,7 +69,7 @@ def test_hertzian_grains_are_not_those_of_paper_b():
     assert sum("harmonic grains" in verdict.explanation for verdict in found) == 10
 
 
-def test_without_shear_only_the_rigidity_before_strain_is_asked():
+def test_without_shear_only_the_rigidity_before_strain_is_tested():
     ensemble = claim_fixtures.ensemble()
     ensemble.attrs["config"] = json.dumps({"contact_law": {"normal": "harmonic"}})
     found = verdicts(ensemble)
@@ -95,7 +95,7 @@ def test_failed_samples_are_left_out():
     assert {v.verdict for v in verdicts(ensemble).values()} == {HOLDS}
 
 
-def test_the_same_network_before_and_after_an_event_is_told():
+def test_the_note_has_events_with_the_same_network_before_and_after():
     ensemble = claim_fixtures_shear.ensemble()
     ensemble["event_reopened"] = ensemble["event_opened"].copy()
     ensemble["event_opened"] = 0.0 * ensemble["event_opened"]

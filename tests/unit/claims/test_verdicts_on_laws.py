@@ -60,7 +60,7 @@ def test_one_changed_number_contradicts_its_claim_alone(name, mutate):
     assert fallen == {name: CONTRADICTED}
 
 
-def test_one_state_that_grows_is_told_before_it_decides():
+def test_one_state_that_grows_is_counted_before_it_decides():
     ensemble = claim_fixtures_laws.ensemble()
     growth = ensemble["comparison_growth_sharp_coulomb"].to_numpy()
     growth[..., 0, 1] = 0.4 * claim_fixtures_laws.RATE
@@ -70,7 +70,7 @@ def test_one_state_that_grows_is_told_before_it_decides():
     assert "of 30 released states 1 grow" in verdict.explanation
 
 
-def test_hertzian_grains_and_other_observables_are_not_asked():
+def test_hertzian_grains_and_other_observables_are_not_tested():
     ensemble = claim_fixtures_laws.ensemble()
     without = ensemble.drop_vars("comparison_pairs_slipping_sharp_coulomb")
     assert verdicts(without)["C9"].verdict == NOT_TESTED

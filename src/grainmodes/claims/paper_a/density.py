@@ -44,7 +44,7 @@ def localised_rattlers(ensemble) -> Outcome:
     rattlers are kept. The measured number is the share of them with N p < 2 and ω within half a
     decade of ω_R / 10, for all φ of a seed together.
 
-    Criterion: The share is above one half.
+    Criterion: More than one half of the modes of rattlers have N p < 2 and ω near ω_R / 10.
     """
     names = ("eigenvalue_rattlers", "participation_ratio_rattlers", "mode_count_rattlers")
     samples = best_sampled(ensemble, *names, "mode_count")
@@ -80,7 +80,7 @@ def independent_of_size(ensemble) -> Outcome:
     These are the differences of log ω between the smallest and the largest N at nine quantiles
     (0.1 ... 0.9) of each band, at the k_T/k_N closest to 1e-8.
 
-    Criterion: Each difference is within ±5 %.
+    Criterion: The differences of log ω at nine quantiles of each band are within ±5 %.
     """
     by_size = samples_by_size(separable(ensemble), SEPARABLE)
     common = set.intersection(
@@ -114,7 +114,7 @@ def towards_jamming(ensemble) -> Outcome:
     the measured number is the width at the lowest φ minus that at the highest. Both are paired by
     seed, at the smallest k_T.
 
-    Criterion: Both numbers are above 0.
+    Criterion: The median rotational ω falls, and the width of the translational band grows.
     """
     samples = best_sampled(separable(ensemble), SEPARABLE)
     kappa = min(_at_most_phis(samples), default=0.0)

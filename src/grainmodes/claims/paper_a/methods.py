@@ -35,7 +35,7 @@ def hessian_density(ensemble) -> Outcome:
     This is the sum over bins of |counts of D - counts of D_H| over the sum of the counts of D, with
     counts averaged over the samples. If there are no counts of D_H, it is max|H - J| / max|J|.
 
-    Criterion: The number is below 5 %.
+    Criterion: The area between D and D_H, or else max|H - J| / max|J|, is below 5 %.
     """
     if "bin_count_hessian" in ensemble:
         return _densities(ensemble)
@@ -118,7 +118,7 @@ def complex_pairs_with_friction(ensemble) -> Outcome:
     all points of a seed with k_T/k_N ≥ 0.1 together. A does not say at which k_T pairs exist, and
     there are none at weak friction.
 
-    Criterion: The share is above one half.
+    Criterion: More than one half of the states with k_T/k_N ≥ 0.1 have at least one pair.
     """
     samples = best_sampled(ensemble, "complex_pairs_frictional", "jammed_frictional")
     points = samples.points("complex_pairs_frictional", MIN_FRICTIONAL_KAPPA)

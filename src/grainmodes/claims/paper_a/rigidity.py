@@ -70,7 +70,7 @@ def flat_at_small_stiffness(ensemble) -> Outcome:
     This is the relative difference of G to that at the smallest k_T > 0, paired by seed, at every
     φ.
 
-    Criterion: The relative difference is within ±1 % at every φ.
+    Criterion: The relative difference to G at the smallest k_T > 0 is within ±1 %.
     """
     samples = best_sampled(ensemble, "g")
     parts, errors = [], {}
@@ -130,7 +130,8 @@ def no_factorisation(ensemble) -> Outcome:
     This is the difference of log[G(κ)/G(0)] at the lowest and at the highest φ, paired by seed; for
     a product it is 0. A seed with G ≤ 0, which occurs in small systems, is left out.
 
-    Criterion: |difference| is above 0.05 at every k_T/k_N ≥ 1.
+    Criterion: log[G(κ)/G(0)] differs by more than 0.05 between the lowest and the highest φ,
+    at every k_T/k_N ≥ 1.
     """
     samples = best_sampled(ensemble, "g")
     phis = samples.phis("g", 0.0)

@@ -109,7 +109,7 @@ def area_of_rotational_band(ensemble) -> Outcome:
     This is the relative difference of the number of rotational modes (ψ^R > 1/2) to that at the
     smallest k_T, paired by seed, for k_T/k_N ≤ 0.01, where A scales D.
 
-    Criterion: The relative difference is within ±5 %.
+    Criterion: The relative difference of the number of rotational modes is within ±5 %.
     """
     samples, phi, spectra = friction_spectra(ensemble)
     areas = {kappa: _rotational_count(found) for kappa, found in spectra.items()}

@@ -26,7 +26,7 @@ def theory_is_simulation(ensemble) -> Outcome:
 
     This is the relative difference of g_simulated and g, paired by seed, at every point.
 
-    Criterion: The relative difference is within ±1 % at every point.
+    Criterion: The relative difference of the two is within ±1 % at every point.
     """
     samples = best_sampled(ensemble, "g", "g_simulated")
     parts = [
@@ -62,7 +62,7 @@ def independent_of_strain(ensemble) -> Outcome:
     This is the relative difference of G from forward steps to that of the smallest step, paired by
     seed, at every point.
 
-    Criterion: The relative difference is within ±1 % at every point.
+    Criterion: The relative difference to G at the smallest step is within ±1 % at every point.
     """
     samples = best_sampled(ensemble, "g_forward_by_strain", "diagnostic_strain")
     parts = []
@@ -89,7 +89,7 @@ def translational_modes_suffice(ensemble) -> Outcome:
     This is the relative difference of the sum over the modes with ψ^T > 1/2 and g, paired by seed,
     at every point with k_T/k_N ≤ 1e-4.
 
-    Criterion: The relative difference is within ±1 % at every point.
+    Criterion: The relative difference of their sum and G is within ±1 % at k_T/k_N ≤ 1e-4.
     """
     samples = best_sampled(ensemble, "g_translational", "g")
     parts = [

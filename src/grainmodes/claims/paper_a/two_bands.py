@@ -68,7 +68,7 @@ def _purity(found: Modes, kappa: float, rotational: bool) -> Estimate:
 
 @claim("A8", unit="1")
 def gap_overlap_merger(ensemble) -> Outcome:
-    """The bands are separate at k_T/k_N = 1e-10 ... 1e-8, overlap at 1e-6 ... 1e-2, merge from 1.
+    """The bands separate at k_T/k_N = 1e-10 ... 1e-8, overlap at 1e-6 ... 1e-2 and merge from 1 on.
 
     The gap is log10 of the lowest translational ω over the highest rotational ω of a sample, in
     decades; it is negative where the bands overlap. From k_T/k_N = 1 on the measured number is the
@@ -118,7 +118,7 @@ def frictionless_band(ensemble) -> Outcome:
     This is the mean over the modes of |ω/ω' - 1| of the translational ω and the ω' at k_T = 0 with
     the same rank in the sample, or at 50 quantiles of the bands if the numbers of modes differ.
 
-    Criterion: The mean shift is below 1 %.
+    Criterion: The mean relative shift of ω is below 1 %.
     """
     samples = best_sampled(separable(ensemble), SEPARABLE)
     phis = [

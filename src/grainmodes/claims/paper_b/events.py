@@ -46,7 +46,8 @@ def jump_without_precursor(ensemble) -> Outcome:
     The jumps are the share of the events in which λ_min changes by more than ten times the change
     that its trend gives for the same step.
 
-    Criterion: The trend is within ±5 %, and the share of jumps is above 0.9.
+    Criterion: λ_min changes by less than 5 % before an event, and jumps in more than 90 % of
+    events.
     """
     parts, notes = [], []
     for where, curves in sheared(ensemble, "curve_lowest_eigenvalue"):
@@ -138,7 +139,7 @@ def quadrupole_of_rotations(ensemble) -> Outcome:
     p_m is |Σ Δℓ exp(i m ϑ)|² / (Σ |Δℓ|)² around the grain that moves farthest, averaged over the
     events. If Δℓ is proportional to cos 2ϑ, p_2 is 0.62.
 
-    Criterion: p_2 is above 0.31, half of this value.
+    Criterion: p_2 is above 0.31, half of its value for cos 2ϑ.
     """
     samples = harmonic(ensemble, "event_quadrupole")
     parts, notes = [], []
@@ -163,7 +164,7 @@ def contacts_at_events(ensemble) -> Outcome:
     This is the share of the events in which a contact opened, or closed, or opened and closed again
     with its spring unloaded.
 
-    Criterion: The share is above 0.9.
+    Criterion: A contact opens or closes in more than 90 % of the events.
     """
     names = ("event_opened", "event_closed", "event_reopened")
     samples = harmonic(ensemble, "curve_strain", *names)

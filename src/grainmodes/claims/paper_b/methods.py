@@ -44,7 +44,8 @@ def independent_of_min_step(ensemble) -> Outcome:
     This is the root mean square of the difference of σ with and without bracketed events, over the
     root mean square of σ.
 
-    Criterion: The difference is below 1 % up to γ = 0.08, and above 1 % beyond.
+    Criterion: The relative difference of σ with and without brackets is below 1 % up to γ = 0.08,
+    and above 1 % beyond.
     """
     samples = harmonic(ensemble, "curve_strain", "coarse_strain")
     parts = []
@@ -78,7 +79,8 @@ def critical_strain_converges(ensemble) -> Outcome:
     This is the distance, in units of Δγ_Th, of γ_c from that of the narrowest bracket, for the
     first event of every sample.
 
-    Criterion: The mean distance is at most Δγ_Th at every Δγ_Th ≤ 1e-6 but the smallest.
+    Criterion: γ_c is on average within Δγ_Th of its value in the narrowest bracket, at every
+    Δγ_Th ≤ 1e-6.
     """
     samples = harmonic(ensemble, "bracket_min_step")
     parts = []
@@ -103,7 +105,7 @@ def symmetric_jacobian(ensemble) -> Outcome:
     This is log10 of max|J - Jᵀ| / max|J| of the state after an event, averaged over events. The sum
     of slips is tangential here by construction, because s is a number that turns with the contact.
 
-    Criterion: The number is below -12.
+    Criterion: log10 of max|J - Jᵀ| / max|J| is below -12 after events.
     """
     samples = harmonic(ensemble, "event_asymmetry_after")
     parts, notes = [], []

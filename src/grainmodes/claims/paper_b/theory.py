@@ -40,7 +40,8 @@ def theory_is_simulation(ensemble) -> Outcome:
     changed, over that of |g Δγ|; and the order of |σ - σ_th| in Δγ, if steps of several sizes
     precede an event.
 
-    Criterion: The first two are below 1 %, and the order lies within 1.8 ... 2.2.
+    Criterion: σ - σ_th is below 1 % of σ, and below 1 % of g Δγ in steps without a change of
+    contacts; its order in Δγ lies within 1.8 ... 2.2.
     """
     parts, notes = [], []
     for where, curves in sheared(ensemble, "curve_g_xy"):
@@ -103,7 +104,7 @@ def mean_rigidity(ensemble) -> Outcome:
     This is the relative difference of the mean of Δσ/Δγ and the mean of g, paired by sample, over
     the steps without an event in every tenth of the strain.
 
-    Criterion: The relative difference is within ±5 % in every tenth.
+    Criterion: The relative difference of the two is within ±5 % in every tenth of the strain.
     """
     parts, notes = [], []
     for where, curves in sheared(ensemble, "curve_g_xy"):
@@ -135,7 +136,7 @@ def rigidity_before_strain(ensemble) -> Outcome:
 
     This is the relative difference of g_simulated and g, paired by seed, at every point.
 
-    Criterion: The relative difference is within ±1 % at every point.
+    Criterion: The relative difference of the two is within ±1 % at every point.
     """
     samples = harmonic(ensemble, "g", "g_simulated")
     parts = [

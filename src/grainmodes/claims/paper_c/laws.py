@@ -39,7 +39,8 @@ def smoothed_is_unstable(ensemble) -> Outcome:
     These are the share of the sheared samples in which complex pairs are born, and the growth rate
     of released states over ω_i, averaged over the states of a sample.
 
-    Criterion: The share is above one half, and the growth rate over ω_i lies within 0.9 ... 1.1.
+    Criterion: Pairs are born in more than one half of the samples, and released states grow at
+    0.9 ... 1.1 ω_i.
     """
     samples, points = _harmonic(ensemble, "smoothed_coulomb")
     parts, notes = [], []
@@ -59,7 +60,8 @@ def sharp_is_stable(ensemble) -> Outcome:
     stick, and the largest growth rate over ω_i among the released states of a sample that have
     pairs if these springs slip.
 
-    Criterion: The share is below 0.02, and the growth rate over ω_i is below 0.1.
+    Criterion: Fewer than 2 % of the states have pairs if springs stick, and released states grow at
+    less than 0.1 ω_i.
     """
     samples, points = _harmonic(ensemble, "sharp_coulomb")
     parts, notes = [], []

@@ -37,7 +37,7 @@ def born_under_shear(ensemble) -> Outcome:
     These are the number of pairs in the first state, and the share of the samples with a pair in
     any later state.
 
-    Criterion: The first state has no pair, and the share is above 0.5.
+    Criterion: The first state has no pair, and pairs are born in more than one half of the samples.
     """
     parts, notes = [], []
     for samples in samples_by_size(ensemble, "pair_count"):

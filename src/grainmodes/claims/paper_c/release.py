@@ -61,7 +61,8 @@ def spirals(ensemble) -> Outcome:
     are the part of the motion that the fit leaves, the overlap of z with the eigenvector, and the
     median ratio of the axes of the ellipse of a grain.
 
-    Criterion: The remaining part is below 5 %, the overlap above 0.99, and the ratio above 0.1.
+    Criterion: The fit leaves less than 5 % of the motion, the overlap is above 0.99, and the median
+    ratio of axes is above 0.1.
     """
     parts = []
     names = ("spiral_misfit", "spiral_overlap", "spiral_opening")
@@ -82,8 +83,8 @@ def growth(ensemble) -> Outcome:
     and frequencies of M and A to ω_i and ω_r; log10 of M at the first change of contacts; and the
     time from this change to the end of the growth, in 1/ω_i.
 
-    Criterion: The relative differences are within ±1 %, log10 M lies within -8 ... -6, and the time
-    is within ±2.
+    Criterion: Rates and frequencies are within ±1 % of linear theory, log10 M at the first change
+    of contacts lies within -8 ... -6, and the growth ends within ±2/ω_i of this change.
     """
     fits = [f"{square}_{name}" for square in SQUARES for name in ("rate", "frequency")]
     depths = [f"{square}_depth" for square in SQUARES]
@@ -122,8 +123,8 @@ def second_instability(ensemble) -> Outcome:
     from the end of the growth in 1/ω_i; and log10 of the ratio of P, the ratio of |σ_xy| and the
     difference of Z, the contacts per grain, between the last tenth of the run and its start.
 
-    Criterion: The plateau is longer than 1, log10 of the ratio of P is above 0, the ratio of |σ_xy|
-    is below 0.7, and the difference of Z is below 0.
+    Criterion: The plateau is longer than 1/ω_i, P rises, |σ_xy| falls below 0.7 of its value, and Z
+    falls.
     """
     quantities = ("pressure", "stress_xy", "contact_number")
     names = [f"{side}_{name}" for side in ("start", "after") for name in quantities]
@@ -162,7 +163,7 @@ def damping(ensemble) -> Outcome:
     The note lists the runs that reach a second instability, because a run that grows may still come
     to rest near its start.
 
-    Criterion: log10 M is above -8 for η_0 < ω_i, and below -8 for η_0 > 2ω_i.
+    Criterion: The largest log10 M is above -8 for η_0 < ω_i, and below -8 for η_0 > 2ω_i.
     """
     parts, notes = [], []
     names = ("damping", "largest_square", "displacement_rate", "second_time")
