@@ -16,6 +16,6 @@ prepare()
 def pytest_collection_modifyitems(items):
     """Give every test its work unit, and let the long tests of the workflow start first."""
     for item in items:
-        unit = "built" if "built" in item.fixturenames else item.path.name
+        unit = "built" if "built" in item.fixturenames else item.nodeid.partition("::")[0]
         item.add_marker(pytest.mark.xdist_group(unit))
     items.sort(key=lambda item: "workflow" not in item.path.parts)
