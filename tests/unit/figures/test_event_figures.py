@@ -32,7 +32,7 @@ LENGTHS = dict.fromkeys(MAPS, 36) | {
     "event_brackets": 5 + 4,
     "tangential_error": 5,
 }
-CRITICAL, LOOSE = 0.02, 3
+CRITICAL, RATTLER = 0.02, 3
 
 
 def event_detail(n=36, phi=0.9, kt=1.0, jammed=True, event=True) -> Block:
@@ -104,7 +104,7 @@ def _fields(n: int, kt: float, draws) -> dict:
     names = ("lowest_mode_before", "lowest_mode_after", "rate", "rate_simulated")
     fields = {name: draws.normal(size=(1, n, 3)) for name in names}
     for field in fields.values():
-        field[:, LOOSE] = np.nan
+        field[:, RATTLER] = np.nan
     fields["event_displacement"] = draws.normal(size=(1, 1, n, 3))
     if not kt:
         for field in fields.values():
