@@ -26,6 +26,7 @@ import numpy as np
 import scipy.linalg
 import scipy.sparse as sparse
 
+from grainmodes.packing.state import zero_on_rattlers
 from grainmodes.response.stability import REAL_TOLERANCE, asymmetry
 
 SYMMETRY_TOLERANCE = 1e-14
@@ -114,8 +115,8 @@ def with_rayleigh_quotients(matrix: sparse.csr_array, pairs: ComplexPairs) -> Co
     return pairs._replace(value=value)
 
 
-def on_all_grains(vectors: np.ndarray, backbone: np.ndarray) -> np.ndarray:
-    """Vectors (3N', P) of the backbone, (N,) bool, on all N grains: (3N, P)."""
-    whole = np.zeros((3 * len(backbone), vectors.shape[1]), vectors.dtype)
-    whole[np.repeat(backbone, 3)] = vectors
-    return whole
+def vectors_on_all_grains(vectors: np.ndarray, backbone_mask: np.ndarray) -> np.ndarray:
+    """Vectors (3N', P) of the backbone on all N grains, (3N, P); 0 on rattlers."""
+    rows, columns = vectors.shape
+    grains = zero_on_rattlers(vectors.reshape(rows // 3, 3, columns), backbone_mask)
+    return grains.reshape(3 * len(backbone_mask), columns)

@@ -237,12 +237,19 @@ def backbone(packing: Packing, threshold: int) -> Packing:
     return packing.without(is_rattler) if is_rattler.any() else packing
 
 
-def on_all_grains(field: np.ndarray, is_rattler: np.ndarray) -> np.ndarray:
-    """A field (N', k) of the backbone as one of all N grains, (N, 3) float64; NaN elsewhere.
+def nan_on_rattlers(field: np.ndarray, backbone_mask: np.ndarray) -> np.ndarray:
+    """A field (N', k) of the backbone on all N grains, (N, 3) float64; NaN where it has no value.
 
     Args:
-        is_rattler: (N,) bool; the field is that of the N' other grains.
+        backbone_mask: (N,) bool, the N' grains of the backbone.
     """
-    whole = np.full((len(is_rattler), 3), np.nan)
-    whole[~is_rattler, : field.shape[1]] = field
+    whole = np.full((len(backbone_mask), 3), np.nan)
+    whole[backbone_mask, : field.shape[1]] = field
+    return whole
+
+
+def zero_on_rattlers(values: np.ndarray, backbone_mask: np.ndarray) -> np.ndarray:
+    """Values (N', …) of the backbone on all N grains, (N, …) of the same dtype; 0 on rattlers."""
+    whole = np.zeros((len(backbone_mask), *values.shape[1:]), values.dtype)
+    whole[backbone_mask] = values
     return whole

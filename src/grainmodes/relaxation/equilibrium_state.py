@@ -37,7 +37,7 @@ from grainmodes.packing.forces import (
     tangential_forces,
 )
 from grainmodes.packing.jacobian import assemble, stiffness_of
-from grainmodes.packing.state import Packing, rattlers
+from grainmodes.packing.state import Packing, rattlers, zero_on_rattlers
 from grainmodes.relaxation.low_rank_update import BaseFactor, LowRankUpdate
 from grainmodes.relaxation.newton import apply_slip, displace_with_springs
 
@@ -254,10 +254,7 @@ class EquilibriumState:
         Raises:
             PackingError: two grains then lie at the same place, or u is not finite.
         """
-        everywhere = u
-        if not self.backbone_mask.all():
-            everywhere = np.zeros((self.packing.n, u.shape[1]))
-            everywhere[self.backbone_mask] = u
+        everywhere = zero_on_rattlers(u, self.backbone_mask)
         packing = displace_with_springs(self.packing, self.interaction, everywhere)
         return EquilibriumState.from_packing(packing, self.interaction, self)
 

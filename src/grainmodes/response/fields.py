@@ -24,7 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing.state import Packing, on_all_grains, rattlers
+from grainmodes.packing.state import Packing, nan_on_rattlers, rattlers
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.response.mode_sum import mode_sum
 from grainmodes.response.moduli import rigidity
@@ -53,9 +53,9 @@ def nonaffine_field(packing: Packing, interaction: Interaction, threshold: int =
     Raises:
         FloppyError: the backbone has zero modes beyond the translations.
     """
-    is_rattler = rattlers(packing, threshold)
+    backbone_mask = ~rattlers(packing, threshold)
     unloaded = rigidity(packing, interaction, threshold).unloaded
-    return on_all_grains(unloaded.displacement, is_rattler)
+    return nan_on_rattlers(unloaded.displacement, backbone_mask)
 
 
 def mode_sum_field(packing: Packing, interaction: Interaction, threshold: int = 2) -> np.ndarray:
@@ -64,11 +64,12 @@ def mode_sum_field(packing: Packing, interaction: Interaction, threshold: int = 
     Raises:
         ValueError: J is not symmetric.
     """
-    is_rattler = rattlers(packing, threshold)
+    backbone_mask = ~rattlers(packing, threshold)
     modes = packing_spectrum(
         packing, interaction, threshold, choices=SpectrumChoices(method="dense")
     )
-    return on_all_grains(mode_sum(packing, interaction, modes, threshold).displacement, is_rattler)
+    displacement = mode_sum(packing, interaction, modes, threshold).displacement
+    return nan_on_rattlers(displacement, backbone_mask)
 
 
 def nearest_modes(
@@ -83,14 +84,17 @@ def nearest_modes(
         raise ValueError(
             "expected a symmetric Jacobian for single modes, got one with springs (s other than 0)"
         )
-    is_rattler = rattlers(packing, threshold)
+    backbone_mask = ~rattlers(packing, threshold)
     eigenproblem = Eigenproblem.from_packing(packing, interaction, threshold)
     pairs = [_nearest(eigenproblem, frequency**2) for frequency in frequencies]
     values, vectors = np.array([value for value, _ in pairs]), np.array([r for _, r in pairs])
     return NearestModes(
         np.sqrt(np.abs(values)),
         np.stack(
-            [on_all_grains(vector.reshape(-1, eigenproblem.k), is_rattler) for vector in vectors]
+            [
+                nan_on_rattlers(vector.reshape(-1, eigenproblem.k), backbone_mask)
+                for vector in vectors
+            ]
         ),
         np.linalg.norm(eigenproblem.matrix @ vectors.T - vectors.T * values, axis=0),
     )

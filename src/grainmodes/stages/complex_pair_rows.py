@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from grainmodes.complex_pairs.definition import on_all_grains
+from grainmodes.complex_pairs.definition import vectors_on_all_grains
 from grainmodes.complex_pairs.inverse_iteration import nearest_subspace
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
 from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, TwoModeState
@@ -164,7 +164,7 @@ def motion_of(side: TwoModeState) -> np.ndarray:
     """
     equilibrium = side.equilibrium
     scale = 1.0 / root_mass(equilibrium.backbone.mass).ravel()
-    q = on_all_grains(
+    q = vectors_on_all_grains(
         scale[:, None] * side.subspace.vectors[:, :1], equilibrium.backbone_mask
     ).reshape(-1, 3)
     largest = q.ravel()[np.argmax(np.abs(q))]

@@ -9,7 +9,7 @@ import numpy as np
 from grainmodes.dataset.padding import stack_padded
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import is_frictionless
-from grainmodes.packing.state import Packing, on_all_grains
+from grainmodes.packing.state import Packing, nan_on_rattlers
 from grainmodes.protocols.shear.event_multipoles import rotational_multipoles
 from grainmodes.protocols.shear.events import NetworkChange, PlasticEvent, count_reopened
 from grainmodes.protocols.shear.first_event import Bracket
@@ -105,7 +105,7 @@ def _events(events: Sequence[PlasticEvent], interaction: Interaction) -> dict[st
 
 def on_every_grain(field: np.ndarray) -> np.ndarray:
     """A field (N, k) with all three components, (N, 3); the rotation is NaN without friction."""
-    return on_all_grains(field, np.zeros(len(field), bool))
+    return nan_on_rattlers(field, np.ones(len(field), bool))
 
 
 def _count_pairs(equilibrium: EquilibriumState) -> float:

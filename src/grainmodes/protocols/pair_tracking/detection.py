@@ -13,8 +13,8 @@ from grainmodes.complex_pairs.definition import (
     ComplexPairs,
     DynamicalMatrix,
     dense_pairs,
-    on_all_grains,
     translations,
+    vectors_on_all_grains,
 )
 from grainmodes.complex_pairs.disc_sweep import pairs_by_disc_sweep
 from grainmodes.complex_pairs.inverse_iteration import subspace_spanned_by
@@ -114,5 +114,7 @@ def detect_pairs(detector: Detector, equilibrium: EquilibriumState) -> PairState
     mass, backbone = equilibrium.backbone.mass, equilibrium.backbone_mask
     matrix = mass_weighted_jacobian(equilibrium.matrix, mass)
     found = detector.find(DynamicalMatrix(matrix, translations(mass), backbone))
-    right, left = (on_all_grains(vectors, backbone) for vectors in (found.right, found.left))
+    right, left = (
+        vectors_on_all_grains(vectors, backbone) for vectors in (found.right, found.left)
+    )
     return PairState(equilibrium, ComplexPairs(found.value, right, left))

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.packing.state import nonaffine_motion, on_all_grains
+from grainmodes.packing.state import nan_on_rattlers, nonaffine_motion
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.events import count_network_changes
 from grainmodes.protocols.shear.first_event import Bracket
@@ -94,12 +94,12 @@ def lowest_mode_of(state: ShearedState) -> tuple[LowestMode, np.ndarray]:
     equilibrium = state.equilibrium
     mode = lowest_mode(equilibrium.matrix, equilibrium.factor, equilibrium.force.shape[1])
     vector = mode.vector.reshape(len(equilibrium.force), -1)
-    return mode, on_all_grains(vector, ~equilibrium.backbone_mask)
+    return mode, nan_on_rattlers(vector, equilibrium.backbone_mask)
 
 
 def nonaffine_rate(state: ShearedState) -> np.ndarray:
     """dq̊/dγ by linear response, (N, 3) in d, NaN on rattlers: B (41)."""
-    return on_all_grains(state.response.displacement, ~state.equilibrium.backbone_mask)
+    return nan_on_rattlers(state.response.displacement, state.equilibrium.backbone_mask)
 
 
 def simulated_nonaffine_rate(state: ShearedState, choices: Shear) -> np.ndarray:
@@ -109,9 +109,10 @@ def simulated_nonaffine_rate(state: ShearedState, choices: Shear) -> np.ndarray:
         ArithmeticError: no equilibrium was found after the step.
     """
     after = _state_at(state.strain + RATE_STEP, state, choices)
-    held = state.equilibrium.backbone_mask
+    backbone_mask = state.equilibrium.backbone_mask
     motion = (
-        nonaffine_motion(state.equilibrium.packing, after.equilibrium.packing)[held] / RATE_STEP
+        nonaffine_motion(state.equilibrium.packing, after.equilibrium.packing)[backbone_mask]
+        / RATE_STEP
     )
     motion[:, :2] -= motion[:, :2].mean(axis=0)
-    return on_all_grains(motion, ~held)
+    return nan_on_rattlers(motion, backbone_mask)

@@ -12,8 +12,8 @@ import numpy as np
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import (
     Packing,
+    nan_on_rattlers,
     nonaffine_motion,
-    on_all_grains,
     rattlers,
 )
 from grainmodes.parameters.strain import StepStrain
@@ -37,4 +37,4 @@ def simulated_field(
     forward, backward = (nonaffine_motion(backbone, step.packing) for step in steps)
     u = (forward - backward) / (2.0 * protocol.strain)
     u[:, :2] -= u[:, :2].mean(axis=0)
-    return on_all_grains(u, is_rattler)
+    return nan_on_rattlers(u, ~is_rattler)
