@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 
-class Progress(NamedTuple):
+@dataclass(frozen=True)
+class Progress:
     """The fraction that is done (0 to 1), the same in words, and a count of some unit."""
 
     done: float
