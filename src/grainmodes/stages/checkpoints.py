@@ -44,7 +44,7 @@ class CheckpointFiles(Generic[Run]):
         seconds: least time between two checkpoints of a run.
     """
 
-    def __init__(self, output: Path, start: tuple, seconds: float):
+    def __init__(self, output: Path, start: tuple[object, ...], seconds: float):
         self._output, self._seconds = output, seconds
         self._mark = (code_version(), start)
         self._files: set[Path] = set()

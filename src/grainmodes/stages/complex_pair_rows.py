@@ -119,7 +119,9 @@ def _products(tracking: PairTracking) -> dict[str, object]:
     return _columns("product", ("strain", "mode", "other", "value"), rows)
 
 
-def _columns(prefix: str, names: Sequence[str], rows: Sequence[tuple]) -> dict[str, object]:
+def _columns(
+    prefix: str, names: Sequence[str], rows: Sequence[tuple[object, ...]]
+) -> dict[str, object]:
     """The columns of some rows as `prefix_name`; nothing if there is no row."""
     if not rows:
         return {}
@@ -168,4 +170,5 @@ def motion_of(side: TwoModeState) -> np.ndarray:
         scale[:, None] * side.subspace.vectors[:, :1], equilibrium.backbone_mask
     ).reshape(-1, 3)
     largest = q.ravel()[np.argmax(np.abs(q))]
-    return q * (abs(largest) / largest / np.linalg.norm(q))
+    motion: np.ndarray = q * (abs(largest) / largest / np.linalg.norm(q))
+    return motion

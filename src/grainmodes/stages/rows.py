@@ -58,7 +58,7 @@ def compute_block(
 def response_block(
     packings: Block,
     stage: str,
-    config: dict,
+    config: dict[str, Any],
     law: ContactLaw,
     sample: Sample,
 ) -> Block:
@@ -82,7 +82,7 @@ def response_block(
     return compute_block(packings.variables["seed"], sample, failures, attributes)
 
 
-def stage_attributes(stage: str, config: dict, **point: object) -> dict[str, object]:
+def stage_attributes(stage: str, config: dict[str, Any], **point: object) -> dict[str, object]:
     """The attributes of a block of a stage."""
     return {"title": f"grainmodes: {stage}", "stage": stage, "config": config, **point}
 

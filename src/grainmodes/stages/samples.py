@@ -52,4 +52,5 @@ def seed_of(block: Block, number: int) -> int:
 
 def force_tolerance(block: Block) -> float:
     """F_Th that the packings of a block were made to; of foreign ones A's 1e-14."""
-    return block.mapping("config").get("compression", asdict(Compression()))["force_tolerance"]
+    compression = block.mapping("config").get("compression", asdict(Compression()))
+    return float(compression["force_tolerance"])

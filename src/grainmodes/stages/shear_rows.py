@@ -57,7 +57,7 @@ def bracket_ends(brackets: Sequence[Bracket]) -> dict[str, object]:
 
 def symmetric_shear(tensor: np.ndarray) -> float:
     """The shear component (T_xy + T_yx)/2 of a tensor (2, 2)."""
-    return (tensor[0, 1] + tensor[1, 0]) / 2.0
+    return float(tensor[0, 1] + tensor[1, 0]) / 2.0
 
 
 def _curve(points: Sequence[CurvePoint]) -> dict[str, object]:

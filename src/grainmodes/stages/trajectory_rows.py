@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from grainmodes.dataset.files import Block, BlockError
@@ -38,7 +40,7 @@ def trajectory_in_row(block: Block, number: int) -> Trajectory:
     )
 
 
-def check_start(block: Block, config: dict, phi: float) -> None:
+def check_start(block: Block, config: dict[str, Any], phi: float) -> None:
     """Check that a compression with parameters `config` to φ can start from some checkpoints.
 
     Raises:

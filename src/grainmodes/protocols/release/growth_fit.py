@@ -98,7 +98,8 @@ def _fit_exponents(time: np.ndarray, square: np.ndarray, start: np.ndarray) -> O
 
     def residual(parameters: np.ndarray) -> np.ndarray:
         terms = _terms(time, parameters - [start[0], 0.0])
-        return terms @ np.linalg.lstsq(terms, flat, rcond=None)[0] - flat
+        difference: np.ndarray = terms @ np.linalg.lstsq(terms, flat, rcond=None)[0] - flat
+        return difference
 
     return least_squares(residual, start, x_scale=unit, xtol=1e-15, ftol=1e-15, gtol=1e-15)
 
@@ -107,9 +108,9 @@ def _terms(time: np.ndarray, parameters: np.ndarray) -> np.ndarray:
     """e^(2ω_i t) times 1, cos 2ω_r t and sin 2ω_r t: (R, 3)."""
     rate, frequency = parameters
     turn = 2.0 * frequency * time
-    return np.exp(2.0 * rate * time)[:, None] * np.stack(
-        [np.ones(len(time)), np.cos(turn), np.sin(turn)], axis=1
-    )
+    oscillation = np.stack([np.ones(len(time)), np.cos(turn), np.sin(turn)], axis=1)
+    terms: np.ndarray = np.exp(2.0 * rate * time)[:, None] * oscillation
+    return terms
 
 
 def _growth_fit(

@@ -54,4 +54,5 @@ def _axis_ratios(amplitude: np.ndarray) -> np.ndarray:
     plane = amplitude.reshape(-1, 3)[:, :2]
     long, short = np.linalg.svd(np.stack([plane.real, plane.imag], axis=1), compute_uv=False).T
     moving = long > 0.0
-    return short[moving] / long[moving]
+    ratios: np.ndarray = short[moving] / long[moving]
+    return ratios

@@ -60,7 +60,9 @@ class UnstableState:
         along = ((self.eigenvalue.real + self.eigenvalue.imag) * self.mode.real) + (
             (self.eigenvalue.real - self.eigenvalue.imag) * self.mode.imag
         )
-        return along * (size / np.sqrt((along[:, :2] ** 2).sum(axis=1).mean()))
+        root_mean_square = np.sqrt((along[:, :2] ** 2).sum(axis=1).mean())
+        velocity: np.ndarray = along * (size / root_mean_square)
+        return velocity
 
     def residual(self, interaction: Interaction) -> float:
         """max|M⁻¹J u − λ u| over |λ| max|u|."""

@@ -67,7 +67,9 @@ def beside_threshold(contacts: Contacts, side: float) -> Contacts:
 
 def slipping_contacts(contacts: Contacts, interaction: Interaction) -> np.ndarray:
     """Contacts at or beyond Coulomb's threshold, where ∂f_T/∂s = 0 if they slip; (C,) bool."""
-    return stiffness_of(beside_threshold(contacts, SLIPPING), interaction)[:, 2, 2] == 0.0
+    stiffness = stiffness_of(beside_threshold(contacts, SLIPPING), interaction)
+    slips: np.ndarray = stiffness[:, 2, 2] == 0.0
+    return slips
 
 
 def fastest_pair(packing: Packing, interaction: Interaction, side: float) -> FastestPair:
@@ -91,8 +93,9 @@ def fastest_mode(packing: Packing, interaction: Interaction, side: float) -> np.
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
     values, vectors = scipy.linalg.eig(_dense_jacobian(packing, interaction, side))
-    u = vectors[:, _place_of_fastest(values)].reshape(-1, 3) / root_mass(packing.mass)
-    return u / np.abs(u).max()
+    u: np.ndarray = vectors[:, _place_of_fastest(values)].reshape(-1, 3) / root_mass(packing.mass)
+    u /= np.abs(u).max()
+    return u
 
 
 def _place_of_fastest(values: np.ndarray) -> int:
@@ -106,4 +109,5 @@ def _dense_jacobian(packing: Packing, interaction: Interaction, side: float) -> 
     contacts = packing.contacts
     stiffness = stiffness_of(beside_threshold(contacts, side), interaction)
     matrix = assemble(stiffness, contacts.i, contacts.j, packing.n)
-    return mass_weighted_jacobian(matrix, packing.mass).toarray()
+    dense: np.ndarray = mass_weighted_jacobian(matrix, packing.mass).toarray()
+    return dense

@@ -149,4 +149,4 @@ def largest_power_of_ten_below(units: int) -> int:
     >>> [largest_power_of_ten_below(units) for units in (10000, 9700, 1000, 12, 10)]
     [1000, 1000, 100, 10, 1]
     """
-    return 10 ** (len(str(units - 1)) - 1)
+    return int(10 ** (len(str(units - 1)) - 1))

@@ -74,7 +74,8 @@ class ShearedState:
     @cached_property
     def modulus(self) -> np.ndarray:
         """g_αβ = dσ_αβ/dγ, (2, 2) in k_N d^(1/2): B (42)-(51)."""
-        return self.response.affine + self.response.nonaffine
+        modulus: np.ndarray = self.response.affine + self.response.nonaffine
+        return modulus
 
     @property
     def sigma(self) -> float:

@@ -84,19 +84,22 @@ def normal_part(path: np.ndarray, normal: np.ndarray) -> np.ndarray:
     """Err = |V·n| / |V| of every contact with V ≠ 0, for V (C, 2) and n (C, 2): B (A1)."""
     length = np.hypot(*path.T)
     moved = length > 0.0
-    return np.abs(np.sum(path * normal, axis=1))[moved] / length[moved]
+    error: np.ndarray = np.abs(np.sum(path * normal, axis=1))[moved] / length[moved]
+    return error
 
 
 def _turn(before: np.ndarray, after: np.ndarray) -> np.ndarray:
     """Angle between two normals (C, 2) of every contact, (C,)."""
     cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
-    return np.abs(np.arctan2(cross, np.sum(before * after, axis=1)))
+    angle: np.ndarray = np.abs(np.arctan2(cross, np.sum(before * after, axis=1)))
+    return angle
 
 
 def _length_difference(path: np.ndarray, contacts: Contacts) -> np.ndarray:
     """||V| − |s|| / |s| of every contact with s ≠ 0."""
     s = np.abs(contacts.displacement)
-    return np.abs(np.hypot(*path.T) - s)[s > 0.0] / s[s > 0.0]
+    difference: np.ndarray = np.abs(np.hypot(*path.T) - s)[s > 0.0] / s[s > 0.0]
+    return difference
 
 
 def _largest_and_median(values: np.ndarray) -> tuple[float, float]:
