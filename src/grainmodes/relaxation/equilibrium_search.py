@@ -2,7 +2,7 @@
 
     q → q + J⁻¹ F̃        F̃ of the backbone, until max|F̃| < tolerance
 
-With the factors of the state it comes from (`equilibrium_state`), a step between events takes three
+With the factors of the state it comes from (`reused_factor`), a step between events takes three
 solutions and no factorisation, also where contacts open or close. J is factored anew where these
 factors do not reduce the residual to a tenth although the contacts have stayed the same. A step is
 shortened until max|F̃| falls. Each iterate has its own contacts and its own backbone: grains that no
@@ -21,12 +21,9 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.linalg.pinned_factor import FloppyError
 from grainmodes.packing.state import Packing
 from grainmodes.relaxation.backtracking import backtrack
-from grainmodes.relaxation.equilibrium_state import (
-    MAX_RESIDUAL_RATIO,
-    EquilibriumState,
-    ReusedFactor,
-)
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.relaxation.rattlers import detach_rattlers
+from grainmodes.relaxation.reused_factor import MAX_RESIDUAL_RATIO, ReusedFactor
 
 MAX_ITERATIONS = 40
 """Largest number of Newton steps: ten times what a step between events needs."""

@@ -1,13 +1,8 @@
 """A packing, the backbone that carries its load, and its linear response.
 
-J changes little from one equilibrium state to the next. The factors of an earlier J₁, corrected for
-the contacts that have changed since (`low_rank_update`), still solve this J by iteration,
-
-    u → u + J₁⁻¹ (f − J u),
-
-as long as each iteration reduces the residual to a tenth. Then ‖1 − J₁⁻¹ J‖ < 1, so that no
-eigenvalue changes its sign between J₁ and J. Otherwise, and after `MAX_REUSES` states, J is
-factored anew.
+J changes little from one equilibrium state to the next, so that the factors of an earlier J are
+used again (`reused_factor`, `low_rank_update`). J is factored anew where they no longer suffice,
+and after `MAX_REUSES` states.
 
 | symbol | name          | shape, type                                 | unit         |
 | ------ | ------------- | ------------------------------------------- | ------------ |
@@ -22,7 +17,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sparse
@@ -30,35 +24,14 @@ from numpy.typing import NDArray
 
 from grainmodes.kernels.laws import Interaction
 from grainmodes.linalg.pinned_factor import PinnedFactor
-from grainmodes.packing.forces import (
-    is_frictionless,
-    max_force_and_torque,
-    net_force,
-    tangential_forces,
-)
+from grainmodes.packing.forces import max_force_and_torque, net_force
 from grainmodes.packing.jacobian import assemble, stiffness_of
 from grainmodes.packing.state import Packing, rattlers, zero_on_rattlers
 from grainmodes.relaxation.low_rank_update import BaseFactor, LowRankUpdate
 from grainmodes.relaxation.newton import apply_slip, displace_with_springs
-
-MAX_RESIDUAL_RATIO = 0.1
-"""Fraction of the residual that an iteration with reused factors may leave at most."""
-
-MAX_REUSES = 20
-"""Number of states that the factors of one J serve at most."""
-
-SOLUTION_TOLERANCE = 1e-12
-"""Relative residual of a solution by reused factors."""
-
-OPENING_OVERLAP = 1e-100
-"""Overlap, in d, of a contact at the moment when it opens: small, but not zero."""
-
-
-class ReusedFactor(NamedTuple):
-    """The factors of an earlier J, and how many states they have served."""
-
-    base: BaseFactor
-    age: int
+from grainmodes.relaxation.rattlers import rattler_threshold
+from grainmodes.relaxation.released_force import force_released_on_opening
+from grainmodes.relaxation.reused_factor import MAX_REUSES, ReusedFactor, solve_by_iteration
 
 
 @dataclass(frozen=True)
@@ -235,18 +208,8 @@ class EquilibriumState:
         """
         if self.low_rank_update is None:
             return self.factor.solve(force)
-        wanted = force.ravel()
-        goal = SOLUTION_TOLERANCE * np.abs(wanted).max(initial=0.0)
-        u, residual = np.zeros(len(wanted)), wanted
-        if guess is not None and guess.size == len(wanted):
-            u = guess.ravel()
-            residual = wanted - self.matrix @ u
-        while (size := np.abs(residual).max(initial=0.0)) > goal:
-            u = u + self.low_rank_update.solve(residual)
-            residual = wanted - self.matrix @ u
-            if not np.abs(residual).max() < max(MAX_RESIDUAL_RATIO * size, goal):
-                return self.factor.solve(force)
-        return u
+        u = solve_by_iteration(self.matrix, self.low_rank_update, force.ravel(), guess)
+        return self.factor.solve(force) if u is None else u
 
     def displaced(self, u: NDArray[np.float64]) -> EquilibriumState:
         """The state after a small displacement u of its backbone, (N', k) in d.
@@ -257,27 +220,3 @@ class EquilibriumState:
         everywhere = zero_on_rattlers(u, self.backbone_mask)
         packing = displace_with_springs(self.packing, self.interaction, everywhere)
         return EquilibriumState.from_packing(packing, self.interaction, self)
-
-
-def rattler_threshold(interaction: Interaction) -> int:
-    """Largest number of contacts of a grain that carries no load: 2, or 1 with friction.
-
-    With friction two contacts may hold a grain.
-    """
-    return 2 if is_frictionless(interaction) else 1
-
-
-def force_released_on_opening(packing: Packing, interaction: Interaction) -> float:
-    """Largest force, in k_N d^(3/2), that a contact of the history bore when it opened.
-
-    It is the tangential force at zero overlap. It is zero where the tangential force ends with the
-    normal one, for Hertzian contacts and under Coulomb's condition. A harmonic contact without slip
-    releases k_T s at once.
-    """
-    contacts, history = packing.contacts, packing.history
-    if history is None or len(history.i) == len(contacts.i):
-        return 0.0
-    opened = ~np.isin(history.key, contacts.key, assume_unique=True)
-    s = history.spring_state[opened]
-    overlap = np.full(len(s), OPENING_OVERLAP)
-    return float(np.abs(tangential_forces(interaction, overlap, s)).max(initial=0.0))

@@ -1,4 +1,4 @@
-"""Rattlers are moved until they touch nothing: they carry no load, and balance requires it."""
+"""Rattlers: which grains they are, and how they are moved until they touch nothing."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from grainmodes.kernels.contacts import normal_slope
 from grainmodes.kernels.laws import Frictionless, Interaction, NormalLaw
 from grainmodes.packing.contacts import Contacts
-from grainmodes.packing.forces import net_force
+from grainmodes.packing.forces import is_frictionless, net_force
 from grainmodes.packing.state import Packing
 
 MAX_MOVES = 100
@@ -20,8 +20,18 @@ STEP_FACTOR = 1.5
 Of a single Hertzian contact it reaches zero overlap exactly: f_N/f_N' = 2ξ/3."""
 
 
+def rattler_threshold(interaction: Interaction) -> int:
+    """Largest number of contacts of a grain that carries no load: 2, or 1 with friction.
+
+    With friction two contacts may hold a grain.
+    """
+    return 2 if is_frictionless(interaction) else 1
+
+
 def detach_rattlers(packing: Packing, normal: NormalLaw, is_rattler: NDArray[np.bool_]) -> Packing:
     """The packing with its rattlers moved along their normal forces until they touch nothing.
+
+    A rattler carries no load, so that it must not touch anything in a force balance.
 
     Args:
         normal: the law of the normal force; friction is ignored.

@@ -14,11 +14,9 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 from grainmodes.relaxation.equilibrium_search import find_equilibrium
-from grainmodes.relaxation.equilibrium_state import (
-    MAX_REUSES,
-    EquilibriumState,
-    force_released_on_opening,
-)
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
+from grainmodes.relaxation.released_force import force_released_on_opening
+from grainmodes.relaxation.reused_factor import MAX_REUSES
 
 B = Interaction.from_law(ContactLaw("harmonic", "elastic", 1.0))
 HERTZIAN = Interaction.from_law(ContactLaw("hertz", "elastic", 1.0))

@@ -20,7 +20,7 @@ from grainmodes.packing.forces import forces_on_i, sliding, stress
 from grainmodes.packing.mass_weighted import generalized_mass
 from grainmodes.packing.state import Packing, nonaffine_motion, rattlers
 from grainmodes.relaxation.dynamics import Motion
-from grainmodes.relaxation.equilibrium_state import rattler_threshold
+from grainmodes.relaxation.rattlers import rattler_threshold
 
 
 class MotionRecord(NamedTuple):
