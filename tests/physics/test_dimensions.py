@@ -19,7 +19,7 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.stages import STAGES
 from rescaled import TO_A_PAIR, TO_AN_EVENT, RescaledSystem
 
-WITHOUT_MASS = {"bin_edge", "frequency_asked", "frequency_found"}
+WITHOUT_MASS = {"bin_edge", "frequency_requested", "frequency_found"}
 """J knows no masses: these are frequencies of grains whose mass is the unit of mass."""
 
 PRINTED = {"bin_count_hessian_printed", "hessian_printed_difference"}

@@ -18,14 +18,14 @@ NAMES = {
     "nonaffine_field_simulated": Variable(
         GRAINS, "f8", LENGTH, "nonaffine_field from relaxed step strains"
     ),
-    "frequency_asked": Variable(
+    "frequency_requested": Variable(
         ("seed", "frequency"),
         "f8",
         RATE,
         "requested frequency, near which one eigenvector is computed",
     ),
     "frequency_found": Variable(
-        ("seed", "frequency"), "f8", RATE, "frequency of the mode nearest to frequency_asked"
+        ("seed", "frequency"), "f8", RATE, "frequency of the mode nearest to frequency_requested"
     ),
     "eigenvector": Variable(
         ("seed", "frequency", "grain", "component"),

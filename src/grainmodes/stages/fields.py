@@ -61,7 +61,7 @@ def _modes(
 ) -> dict[str, object]:
     found = nearest_modes(packing, interaction, frequencies, threshold)
     return {
-        "frequency_asked": np.array(frequencies),
+        "frequency_requested": np.array(frequencies),
         "frequency_found": found.frequency,
         "eigenvector": found.eigenvector,
         "residual": found.residual.max(),

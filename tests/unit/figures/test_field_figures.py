@@ -47,7 +47,7 @@ def fields(n=36, phi=0.9, kt=1e-4, jammed=True, modes=3, **changes) -> Block:
         "affine_field": np.pad(lattice[..., 1:] - side / 2, ((0, 0), (0, 0), (0, 2))),
     }
     answers = random | {
-        "frequency_asked": np.array([[1e-4, 1.3e-2, 1.0][:modes]]),
+        "frequency_requested": np.array([[1e-4, 1.3e-2, 1.0][:modes]]),
         "frequency_found": np.array([[1.1e-4, 1.2e-2, 0.99][:modes]]),
         "eigenvector": vectors,
     }

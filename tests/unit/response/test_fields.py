@@ -221,7 +221,7 @@ def test_a_block_holds_the_fields_of_its_first_sample():
     }
     for name, field in fields.items():
         assert_allclose(block.variables[name][0], field, atol=1e-8)
-    assert_array_equal(block.variables["frequency_asked"], [[0.013, 0.1, 1.0]])
+    assert_array_equal(block.variables["frequency_requested"], [[0.013, 0.1, 1.0]])
     assert block.variables["eigenvector"].shape == (1, 3, 16, 3)
     assert block.variables["residual"][0] < 1e-13
     assert_array_equal(block.variables["position"][0], packing.position)

@@ -69,7 +69,7 @@ def _choose_kts(samples: list[Block], options: Options) -> list[float]:
 
 
 def _rows_of_modes(block: Block) -> Iterator[pd.DataFrame]:
-    names = ("frequency_asked", "frequency_found", "eigenvector")
+    names = ("frequency_requested", "frequency_found", "eigenvector")
     modes = zip(*(block.variables[name][0] for name in names), strict=True)
     for requested, found, vector in modes:
         psi = np.nansum(vector[:, 2] ** 2)
