@@ -149,7 +149,7 @@ def crystal(columns: int, rows: int, spacing: float) -> Packing:
 def keeping(law: ContactLaw, packing: Packing) -> Packing:
     """The packing with what the law remembers of its springs: s, or h = k s."""
     contacts = packing.contacts
-    kept = naive.remembered(law, contacts.overlap, contacts.displacement)
+    kept = naive.remembered(law, contacts.overlap, contacts.springs)
     return replace(packing, history=History(contacts.i, contacts.j, kept))
 
 

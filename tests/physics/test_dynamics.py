@@ -144,7 +144,7 @@ def test_slip_is_forgotten_when_a_contact_opens():
     start = np.zeros((2, 3))
     start[:, 2] = 0.05
     touching = move(packing, start, interaction, Undamped(), 1e-2, Stop(0.0, 20))
-    assert abs(touching.packing.contacts.displacement[0]) > 1e-3
+    assert abs(touching.packing.contacts.springs[0]) > 1e-3
     apart = move(touching.packing, touching.velocity, interaction, Undamped(), 1e-2, Stop(0.0, 300))
     assert len(apart.packing.contacts.i) == 0
     assert len(apart.packing.history.i) == 0

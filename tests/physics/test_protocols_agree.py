@@ -88,5 +88,5 @@ def same_state(one: Packing, two: Packing) -> None:
     apart -= apart.mean(axis=1, keepdims=True)
     assert np.abs(apart).max() < 1e-10
     assert np.abs(one.rotation - two.rotation).max() < 1e-10
-    slips = [p.contacts.displacement for p in (one, two)]
+    slips = [p.contacts.springs for p in (one, two)]
     np.testing.assert_allclose(*slips, atol=1e-10)

@@ -49,7 +49,7 @@ def test_loaded_springs_cost_the_jacobian_its_symmetry(run):
     equilibrium = run.state.equilibrium
     row, whole = run_row(run), equilibrium.matrix.toarray()
     contacts = equilibrium.backbone.contacts
-    bent = np.abs(B.kt * contacts.displacement / contacts.distance)
+    bent = np.abs(B.kt * contacts.springs / contacts.distance)
     difference = np.abs(whole - whole.T).max()
     assert row["last_asymmetry"] == pytest.approx(difference / np.abs(whole).max())
     assert 0.0 < difference <= 6.0 * bent.max()

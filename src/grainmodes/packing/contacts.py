@@ -41,7 +41,7 @@ class Contacts:
         return np.stack([self.normal[:, 1], -self.normal[:, 0]], axis=1)
 
     @property
-    def displacement(self) -> np.ndarray:
+    def springs(self) -> np.ndarray:
         """Spring state of every contact, (C,) float64; 0 where friction was never loaded."""
         s = self.spring_state
         return np.zeros(len(self.i)) if s is None else s

@@ -51,7 +51,7 @@ def sliding(contacts: Contacts, interaction: Interaction) -> np.ndarray:
     All are False without friction, or with springs that never slip.
     """
     slides_at = slip_thresholds(interaction, contacts.overlap)
-    return np.abs(contacts.displacement) >= SLIDING_FRACTION * slides_at
+    return np.abs(contacts.springs) >= SLIDING_FRACTION * slides_at
 
 
 def net_force(packing: Packing, interaction: Interaction) -> np.ndarray:

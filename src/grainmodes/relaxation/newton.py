@@ -106,7 +106,7 @@ def displace_with_springs(
         return displaced
     rotation = np.zeros(packing.n) if packing.rotation is None else packing.rotation
     c = packing.contacts
-    s = advance_springs(interaction, c.normal, c.distance, c.overlap, c.displacement, c.i, c.j, u)
+    s = advance_springs(interaction, c.normal, c.distance, c.overlap, c.springs, c.i, c.j, u)
     history = History(c.i, c.j, s)
     return replace(displaced, rotation=rotation + u[:, 2], history=history)
 
@@ -120,5 +120,5 @@ def apply_slip(packing: Packing, interaction: Interaction) -> Packing:
     contacts = packing.contacts
     if packing.history is None:
         return packing
-    s = clip_springs(interaction, contacts.overlap, contacts.displacement)
+    s = clip_springs(interaction, contacts.overlap, contacts.springs)
     return packing.with_springs(s)

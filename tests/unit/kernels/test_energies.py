@@ -59,9 +59,7 @@ def test_the_energy_of_a_packing_is_that_of_its_contacts():
     packing, interaction = crowd(2, slip=0.2), Interaction.from_law(LAWS[0])
     contacts = packing.contacts
     one_by_one = [
-        contact_energies(
-            interaction, contacts.overlap[c : c + 1], contacts.displacement[c : c + 1]
-        )[0]
+        contact_energies(interaction, contacts.overlap[c : c + 1], contacts.springs[c : c + 1])[0]
         for c in range(len(contacts.i))
     ]
     assert energy(packing, interaction) == pytest.approx(sum(one_by_one), rel=1e-14)

@@ -114,7 +114,7 @@ def balanced(interaction: Interaction, strain: float) -> Packing:
 def test_its_forces_are_those_written_down(name, slip):
     interaction, formula = OUTSIDE[name]
     contacts = crowd(51, slip=slip).contacts
-    f_n, f_t = formula(contacts.overlap, contacts.displacement)
+    f_n, f_t = formula(contacts.overlap, contacts.springs)
     written = f_n[:, None] * contacts.normal + f_t[:, None] * contacts.tangent
     np.testing.assert_allclose(forces_on_i(contacts, interaction), np.c_[written, f_t], rtol=1e-12)
 

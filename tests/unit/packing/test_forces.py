@@ -69,7 +69,7 @@ def test_torque_of_a_sliding_pair_has_one_sign():
     np.testing.assert_allclose(
         on_i[:, 2], np.sum(on_i[:, :2] * contacts.tangent, axis=1), atol=1e-15
     )
-    assert np.all(on_i[:, 2] * contacts.displacement < 0.0)
+    assert np.all(on_i[:, 2] * contacts.springs < 0.0)
     total = net_force(packing, interaction)[:, 2]
     assert total.sum() == pytest.approx(2.0 * on_i[:, 2].sum(), abs=1e-14)
 

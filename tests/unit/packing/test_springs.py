@@ -72,7 +72,7 @@ def spun(law: ContactLaw, steps: int):
 @pytest.mark.parametrize("law", FORCE_LAWS, ids=law_name)
 def test_a_force_is_forgotten_when_a_contact_opens_and_starts_anew(law):
     interaction, touching = Interaction.from_law(law), spun(law, 20)
-    assert abs(touching.packing.contacts.displacement[0]) > 1e-5
+    assert abs(touching.packing.contacts.springs[0]) > 1e-5
     apart = move(
         touching.packing, touching.velocity, interaction, Undamped(), 1e-2, Stop(0.0, 1500)
     )
@@ -85,7 +85,7 @@ def test_a_force_is_forgotten_when_a_contact_opens_and_starts_anew(law):
         before, steps = again, steps + 1
         again = move(before, back, interaction, Undamped(), 1e-2, Stop(0.0, 1)).packing
     contacts = again.contacts
-    h, overlap = contacts.displacement[0], contacts.overlap[0]
+    h, overlap = contacts.springs[0], contacts.overlap[0]
     assert steps > 1
     assert 0.0 <= h <= naive.remembered(law, overlap, 0.02 * 1e-2) * (1 + 1e-6)
 
@@ -100,5 +100,5 @@ def test_a_motion_goes_on_where_it_stopped(law):
     np.testing.assert_allclose(rest.velocity, whole.velocity, atol=1e-11)
     one, other = (m.packing.contacts for m in (whole, rest))
     np.testing.assert_array_equal(other.i, one.i)
-    np.testing.assert_allclose(other.displacement, one.displacement, atol=1e-11)
-    assert np.abs(one.displacement).max() > 1e-4
+    np.testing.assert_allclose(other.springs, one.springs, atol=1e-11)
+    assert np.abs(one.springs).max() > 1e-4

@@ -100,7 +100,7 @@ def test_the_force_of_a_contact_that_opens_is_reported():
     packing = crowd(5, slip=0.2)
     contacts = packing.contacts
     apart = packing.at(0.5 * packing.phi)
-    s = np.abs(contacts.displacement).max()
+    s = np.abs(contacts.springs).max()
     for law, force in ((LAWS[3], 0.3 * s), (LAWS[0], 0.0), (LAWS[1], 0.0), (LAWS[5], 0.0)):
         found = force_released_on_opening(apart, Interaction.from_law(law))
         assert found == pytest.approx(force, rel=1e-12, abs=1e-30), law

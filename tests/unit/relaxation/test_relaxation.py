@@ -164,13 +164,13 @@ def test_springs_slip_as_far_as_their_law_requires(law):
     packing = crowd(40, slip=4.0)
     before = packing.contacts
     after = apply_slip(packing, Interaction.from_law(law))
-    expected = before.displacement
+    expected = before.springs
     if law.tangential.startswith("sharp_coulomb"):
         limit = naive.threshold(law, before.overlap)
         assert np.any(np.abs(expected) > limit)
         expected = np.clip(expected, -limit, limit)
-    np.testing.assert_allclose(after.contacts.displacement, expected, rtol=1e-13)
-    np.testing.assert_array_equal(after.history.spring_state, after.contacts.displacement)
+    np.testing.assert_allclose(after.contacts.springs, expected, rtol=1e-13)
+    np.testing.assert_array_equal(after.history.spring_state, after.contacts.springs)
 
 
 @pytest.mark.parametrize("law", LAWS, ids=law_name)
@@ -186,13 +186,11 @@ def test_a_small_displacement_advances_the_springs(law):
             packing.diameter,
             packing.box_length,
             packing.strain,
-            slip=dict(
-                zip(zip(contacts.i, contacts.j, strict=True), contacts.displacement, strict=True)
-            ),
+            slip=dict(zip(zip(contacts.i, contacts.j, strict=True), contacts.springs, strict=True)),
         ),
         u,
     )
-    np.testing.assert_allclose(moved.contacts.displacement, [p.slip for p in pairs], atol=1e-13)
+    np.testing.assert_allclose(moved.contacts.springs, [p.slip for p in pairs], atol=1e-13)
     np.testing.assert_array_equal(moved.rotation, u[:, 2])
 
 
@@ -228,4 +226,4 @@ def test_dynamics_are_those_of_the_slow_twin_step_by_step(law, damping):
     contacts = found.packing.contacts
     pairs = slow.pairs_at(scene, now.position, now.slip)
     assert [(p.i, p.j) for p in pairs] == list(zip(contacts.i, contacts.j, strict=True))
-    np.testing.assert_allclose(contacts.displacement, [p.slip for p in pairs], atol=1e-9)
+    np.testing.assert_allclose(contacts.springs, [p.slip for p in pairs], atol=1e-9)

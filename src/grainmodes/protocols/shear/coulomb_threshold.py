@@ -61,7 +61,7 @@ class FastestPair(NamedTuple):
 
 def beside_threshold(contacts: Contacts, side: float) -> Contacts:
     """The contacts with springs a little longer (`SLIPPING`) or shorter (`STICKING`)."""
-    s = (1.0 + side * RELATIVE_OFFSET) * contacts.displacement
+    s = (1.0 + side * RELATIVE_OFFSET) * contacts.springs
     return replace(contacts, spring_state=s)
 
 

@@ -97,7 +97,7 @@ def count_reopened(before: Packing, after: Packing, interaction: Interaction) ->
     contacts, old = after.contacts, before.history
     place = _place_in_history(old.key, contacts.key)
     common = place >= 0
-    i, j, s = contacts.i[common], contacts.j[common], contacts.displacement[common]
+    i, j, s = contacts.i[common], contacts.j[common], contacts.springs[common]
     relative = motion[i] - motion[j]
     along = np.einsum("ca,ca->c", relative[:, :2], contacts.tangent[common])
     zero, one = np.zeros(len(s)), np.ones(len(s))

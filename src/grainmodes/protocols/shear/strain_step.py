@@ -94,9 +94,7 @@ def strained_affinely(before: EquilibriumState, strain: float, loaded: bool) -> 
     slide = (strain - before.packing.strain) * r[:, 1]
     middle = np.hypot(r[:, 0] + 0.5 * slide, r[:, 1])
     overlap = contacts.overlap + contacts.distance - middle
-    s = advance_by_slide(
-        before.interaction, overlap, contacts.displacement, slide * r[:, 1] / middle
-    )
+    s = advance_by_slide(before.interaction, overlap, contacts.springs, slide * r[:, 1] / middle)
     return replace(sheared, history=History(contacts.i, contacts.j, s))
 
 

@@ -53,7 +53,7 @@ class TangentialPath:
     def __init__(self, equilibrium: EquilibriumState):
         contacts = equilibrium.packing.contacts
         self._keys, self._contacts = contacts.key, contacts
-        self._path = contacts.displacement[:, None] * contacts.tangent
+        self._path = contacts.springs[:, None] * contacts.tangent
         self._first_normal = contacts.normal
 
     def follow(self, equilibrium: EquilibriumState) -> PathError:
@@ -61,10 +61,10 @@ class TangentialPath:
         contacts = equilibrium.packing.contacts
         keys = contacts.key
         _, new, old = np.intersect1d(keys, self._keys, assume_unique=True, return_indices=True)
-        middle, slide = contacts.normal.copy(), contacts.displacement.copy()
+        middle, slide = contacts.normal.copy(), contacts.springs.copy()
         middle[new] += self._contacts.normal[old]
         middle /= np.hypot(*middle.T)[:, None]
-        slide[new] -= self._contacts.displacement[old]
+        slide[new] -= self._contacts.springs[old]
         step = slide[:, None] * np.stack([middle[:, 1], -middle[:, 0]], axis=1)
         path, first_normal = step.copy(), contacts.normal.copy()
         path[new] += self._path[old]
@@ -97,7 +97,7 @@ def _turn(before: np.ndarray, after: np.ndarray) -> np.ndarray:
 
 def _length_difference(path: np.ndarray, contacts: Contacts) -> np.ndarray:
     """||V| − |s|| / |s| of every contact with s ≠ 0."""
-    s = np.abs(contacts.displacement)
+    s = np.abs(contacts.springs)
     difference: np.ndarray = np.abs(np.hypot(*path.T) - s)[s > 0.0] / s[s > 0.0]
     return difference
 

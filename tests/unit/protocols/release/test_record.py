@@ -55,7 +55,7 @@ def test_sliding_contacts_are_those_beyond_the_threshold():
         packing = crowd(5, slip=1.0)
         interaction = Interaction.from_law(ContactLaw("hertz", tangential, 0.5, 0.3))
         contacts = packing.contacts
-        over = np.abs(contacts.displacement) >= 0.3 / 0.5 * contacts.overlap
+        over = np.abs(contacts.springs) >= 0.3 / 0.5 * contacts.overlap
         still = Motion(packing, np.zeros((16, 3)), 0, 0.0)
         turning = replace(packing, rotation=np.zeros(16))
         found = record_motion(0.0, replace(still, packing=turning), turning, interaction).sliding
