@@ -5,7 +5,7 @@
     rotations at ω = ω_R x, x peaked at 1 for φ = 0.90, moving down as (φ - φ_c)^(1/4)
     translations over a plateau that widens towards φ_c, and one sound wave at ω = 3e-4
 
-Each number carries noise that belongs to its seed, as that of one packing at every k_T does.
+Each number has a noise that depends on its seed only, like that of one packing at all k_T.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def ensemble() -> xr.Dataset:
 
 
 def set_moduli(dataset: xr.Dataset, g: xr.DataArray) -> None:
-    """Every modulus that equals g, so that no claim but those on g itself sees a change of g."""
+    """Set g and all moduli equal to it, so that a change of g affects only claims on g itself."""
     g = (g * noise(dataset, 0.05)).transpose(*POINT)
     dataset["g"], dataset["g_simulated"], dataset["g_translational"] = g, g * (1 + 1e-6), g.copy()
     steps = xr.DataArray(1.0 + np.array(STRAINS), dims="diagnostic")
@@ -73,7 +73,7 @@ def ones(dataset: xr.Dataset) -> xr.DataArray:
 
 
 def noise(dataset: xr.Dataset, size: float) -> xr.DataArray:
-    """Factors about 1 that belong to a seed."""
+    """Factors close to 1, one for each seed."""
     draws = np.random.default_rng(1).normal(1.0, size, SEEDS)
     return xr.DataArray(draws, dims="seed")
 

@@ -1,7 +1,7 @@
 """The ensemble of `claim_fixtures` with sheared harmonic grains: every claim of paper B holds.
 
 every step raises σ by g Δγ - Δγ², so that σ_th is right to order Δγ²
-an event every 0.01, bracketed to Δγ_Th in tenths of Δγ_in: σ falls, λ_min and g jump
+an event every 0.01, bracketed to Δγ_Th in tenths of Δγ_in, in which σ falls and λ_min and g jump
 a change without event every 0.01, in which a contact opens
 """
 

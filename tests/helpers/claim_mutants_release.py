@@ -11,13 +11,13 @@ def changed(name: str, factor: float, added: float = 0.0):
 
 
 def grows_though_damped(ensemble):
-    """The run under three times ω_i comes as far as the undamped one."""
+    """The run with η_0 = 3 ω_i grows as far as the undamped one."""
     largest = ensemble["release_largest_square"]
     ensemble["release_largest_square"] = largest.where(largest["damping"] != 3, 0.1)
 
 
 def suppressed_by_little(ensemble):
-    """The run under a tenth of ω_i does not grow."""
+    """The run with η_0 = 0.1 ω_i does not grow."""
     largest = ensemble["release_largest_square"]
     ensemble["release_largest_square"] = largest.where(largest["damping"] != 1, 1e-22)
 

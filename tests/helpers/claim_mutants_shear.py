@@ -6,7 +6,7 @@ import claim_fixtures_shear
 
 
 def theory_off(ensemble):
-    """Every other step is 5 % longer, those between 5 % shorter: of their mean nothing is seen."""
+    """Steps of σ are alternately 5 % too large and 5 % too small, with the same mean."""
     step = np.diff(claim_fixtures_shear.strains())
     sign = np.where(np.arange(len(step)) % 2, 1.0, -1.0)
     off = np.concatenate([[0.0], np.cumsum(0.3 * 0.05 * sign * step)])
@@ -14,7 +14,7 @@ def theory_off(ensemble):
 
 
 def trend_before_events(ensemble):
-    """λ_min falls to nothing as the root of γ_c - γ, over the steps before every event."""
+    """λ_min falls to 0 as (γ_c - γ)^(1/2) over the steps before every event."""
     strain = ensemble["curve_strain"]
     for critical in claim_fixtures_shear.EVENTS:
         left = (critical + 0.5 * claim_fixtures_shear.SMALLEST - strain) / (
@@ -26,7 +26,7 @@ def trend_before_events(ensemble):
 
 
 def singular_rigidity(ensemble):
-    """g gets a term of a few per cent at the last state of an approach; σ goes with it."""
+    """g has a singular term of a few per cent at the last state before an event; σ follows g."""
     strain, half = claim_fixtures_shear.strains(), 0.5 * claim_fixtures_shear.SMALLEST
     term = np.zeros(len(strain))
     for critical in claim_fixtures_shear.EVENTS:
@@ -60,7 +60,7 @@ def other_without_brackets(ensemble):
 
 
 def wandering(ensemble):
-    """γ_c of every bracket another event's."""
+    """γ_c of every bracket is that of another event."""
     ensemble["bracket_strain_after"] = ensemble["bracket_strain_after"] + 1e-5 * np.arange(7)
 
 

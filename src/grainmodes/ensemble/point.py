@@ -1,11 +1,11 @@
 """All blocks of seeds and all observables of one point (n, phi, k_T), merged sample by sample.
 
-Each seed that stands in any block becomes one row, in the order of the seeds. A number is kept if
-there is one, or one per mode, bin, step strain, state, event, bracket or pair, in a sample;
-coordinates of grains stay in the packings and in the files of their shear.
-A sample is converged when every observable of the point has it converged; a seed that an
-observable lacks has there NaN (integers: 0), hence also converged = 0. Where two observables hold
-a name both, the first in the order of `STAGES` wins.
+Each seed of any block becomes one row, in the order of the seeds. A point keeps the variables with
+one number per sample, and those with one number per mode, bin, step strain, state, event, bracket
+or pair of a sample. Coordinates of grains stay in the files of the packings and of their shear. A
+sample is converged if it is converged in every observable of the point. A seed that an observable
+lacks has NaN there (integers: 0), hence also converged = 0. If two observables have a variable of
+the same name, the first in the order of `STAGES` is kept.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ from grainmodes.dataset.variable import is_gathered
 from grainmodes.parameters.stages import gathered
 
 STAGES = tuple(gathered())
-"""Values of the attribute `stage` that a point gathers, in the order in which names win."""
+"""Values of the attribute `stage` that a point gathers, the first of which keeps a name."""
 
 
 def gather_point(paths: list[str | Path]) -> Block:
     """The blocks of one point, read and merged.
 
     Raises:
-        BlockError: a file is no block, the files belong to different points or parameters, or a
+        BlockError: a file is not a block, the files belong to different points or parameters, or a
             seed occurs twice in an observable.
     """
     return merge_blocks({str(path): read_block(path) for path in paths})
@@ -82,7 +82,7 @@ def _in_seed_order(stage: str, members: dict[str, Block]) -> dict[str, Block]:
 def _aligned(members: dict[str, Block], seeds: np.ndarray) -> dict[str, np.ndarray]:
     """The variables of one observable, one row per seed of the point.
 
-    A series is as long as that of the sample that has most; the others are filled up.
+    A series has the length of the longest one among the samples; shorter ones are padded.
     """
     found: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {}
     for block in members.values():
@@ -109,13 +109,13 @@ def _attributes(blocks: dict[str, Block], stages: dict[str, dict[str, Block]]) -
         "stage": "point",
         **{name: _shared(name, blocks) for name in ("n", "phi", "kt")},
         "code_version": ", ".join(sorted(versions)),
-        "config": {stage: _decoded(_shared("config", of)) for stage, of in stages.items()},
+        "config": {stage: _decoded(_shared("config", part)) for stage, part in stages.items()},
         "failures": _failures(stages),
     }
 
 
 def _shared(attribute: str, blocks: dict[str, Block]) -> object:
-    """The one value of an attribute in all blocks that have it."""
+    """The value of an attribute, which must be the same in all blocks that have it."""
     values = {
         name: block.attributes[attribute]
         for name, block in blocks.items()
@@ -135,7 +135,7 @@ def _decoded(text: object) -> object:
 
 
 def _failures(stages: dict[str, dict[str, Block]]) -> dict[str, str]:
-    """Seed → what failed; a sentence that later observables repeat stands once."""
+    """Seed → what failed; a sentence that later observables repeat is kept once."""
     sentences: dict[str, dict[str, str]] = {}
     for stage, members in stages.items():
         for block in members.values():

@@ -1,9 +1,9 @@
-"""All points of a study in one file: dimensions n, phi, kt, seed, then that of a series.
+"""All points of a study in one file, with the dimensions n, phi, kt, seed, and that of a series.
 
-Points are written one after the other, so the memory needed is that of one point whatever the size
-of the study; a spectrum is one chunk. What a point lacks, or a point that the grid lacks, is NaN;
-integers have the fill value -1, which xarray shows as NaN. The bytes depend neither on the order
-of the points nor on the time.
+Points are written one after the other, so that the memory is that of one point, for any size of the
+study; a spectrum is one chunk. Missing values and missing points are NaN; integers have the fill
+value -1, which xarray shows as NaN. The bytes of the file depend neither on the order of the points
+nor on the time.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ INTEGER_FILL = -1
 
 
 class Layout(NamedTuple):
-    """What the file has room for: values of the coordinates, lengths of the bins, variables."""
+    """The structure of the file: values of the coordinates, lengths of the series, variables."""
 
     coordinates: dict[str, np.ndarray]
     lengths: dict[str, int]
@@ -42,8 +42,8 @@ def write_ensemble(point_paths: list[str | Path], out_path: str | Path, config: 
         config: the study's configuration, kept as JSON in the attribute `config`.
 
     Raises:
-        BlockError: no point is given, a file is no point, or a point occurs twice.
-        OSError: the file cannot be written; whatever stood there before is untouched.
+        BlockError: no point is given, a file is not a point, or a point occurs twice.
+        OSError: the file cannot be written; an older file of this name stays as it was.
     """
     paths = _in_grid_order(point_paths)
     layout = _layout(paths)
