@@ -1,4 +1,9 @@
-"""What fits into the box: fractions of it as integers, and numbers that can be grains."""
+"""Positions as integer fractions of the box, and checks of the numbers of a packing.
+
+    s = r/L in units of 2⁻⁶⁴, wrapped to [−1/2, 1/2)                       r √(1 + γ²) < L/2
+
+The second formula is the condition under which a touching pair is the image that wrapping finds.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +16,13 @@ if TYPE_CHECKING:
 
 
 class PackingError(ValueError):
-    """A packing that cannot be what it says; the message names the grain or the number."""
+    """A packing with numbers that are not allowed; the message names the grain or the number."""
 
 
 def to_fraction(value: np.ndarray) -> np.ndarray:
-    """Real fractions of the box as integers in units of 2⁻⁶⁴, wrapped to [−1/2, 1/2)."""
+    """Fractions of the box, float64, as int64 in units of 2⁻⁶⁴, wrapped to [−1/2, 1/2)."""
     wrapped = value - np.floor(value)
-    # 2⁻⁶⁴ resolution needs more than a float64 holds: split off the upper 32 bits.
+    # A float64 does not resolve 2⁻⁶⁴, so the upper 32 bits are split off.
     high = np.floor(wrapped * 2.0**32)
     low = np.rint((wrapped * 2.0**32 - high) * 2.0**32)
     return (
@@ -26,7 +31,7 @@ def to_fraction(value: np.ndarray) -> np.ndarray:
 
 
 def to_step(value: np.ndarray) -> np.ndarray:
-    """Real steps (2, N) in units of the box as integers in units of 2⁻⁶⁴, whole boxes left out.
+    """Steps (2, N) float64 in units of the box as int64 in units of 2⁻⁶⁴, without whole boxes.
 
     Raises:
         PackingError: a step is NaN or infinite.
@@ -37,12 +42,16 @@ def to_step(value: np.ndarray) -> np.ndarray:
             f"the step of grain {bad[0]}: expected finite numbers, got {value[:, bad[0]]} boxes"
         )
     step = np.rint((value - np.rint(value)) * 2.0**64)
-    # Half a box, 2⁶³, is one more than an integer holds; it is also half a box back.
+    # Half a box, 2⁶³, exceeds the largest int64 by one, but is also half a box back.
     return np.where(step < 2.0**63, step, -(2.0**63)).astype(np.int64)
 
 
 def check_grains(position: np.ndarray, diameter: np.ndarray, mass: np.ndarray) -> None:
-    """Refuse positions (N, 2), diameters and masses (N,) that cannot be grains."""
+    """Check positions (N, 2) in d, diameters (N,) in d and masses (N,) in m.
+
+    Raises:
+        PackingError: shapes disagree, or a number is not finite, or not positive where it must be.
+    """
     n = len(diameter)
     if position.shape != (n, 2) or mass.shape != (n,):
         raise PackingError(
@@ -62,7 +71,11 @@ def check_grains(position: np.ndarray, diameter: np.ndarray, mass: np.ndarray) -
 
 
 def check_rotation(rotation: np.ndarray | None) -> None:
-    """Refuse rotations (N,), if there are any, that are NaN or infinite."""
+    """Check rotations (N,) in d, if there are any.
+
+    Raises:
+        PackingError: a rotation is NaN or infinite.
+    """
     if rotation is None:
         return
     bad = np.flatnonzero(~np.isfinite(rotation))
@@ -73,7 +86,11 @@ def check_rotation(rotation: np.ndarray | None) -> None:
 
 
 def check_springs(history: History | None) -> None:
-    """Refuse a history, if there is one, with a spring state that is NaN or infinite."""
+    """Check the spring states of a history, if there is one.
+
+    Raises:
+        PackingError: a spring state is NaN or infinite.
+    """
     if history is None:
         return
     bad = np.flatnonzero(~np.isfinite(history.spring_state))
@@ -85,7 +102,11 @@ def check_springs(history: History | None) -> None:
 
 
 def check_box(diameter: np.ndarray, box_length: float, strain: float) -> None:
-    """A touching pair must be the image that wrapping s to [−1/2, 1/2) finds: r √(1 + γ²) < L/2."""
+    """Check that the box of length L, sheared by γ, is large enough for its grains (N,).
+
+    Raises:
+        PackingError: L or γ is not finite, or r √(1 + γ²) < L/2 fails for a touching pair.
+    """
     for name, value in (("box_length", box_length), ("strain", strain)):
         if not np.isfinite(value):
             raise PackingError(f"{name}: expected a finite number, got {value}")

@@ -9,8 +9,8 @@
 | L, γ              | box_length, strain      | float                | d, 1    |
 
 A packing is never changed in place. Compression changes L, affine shear changes γ, and neither
-changes the fractions. The contacts are computed when they are first asked for and then kept, so a
-list of many packings should hold them `without_contacts`: 48 bytes per contact.
+changes the fractions. The contacts are computed at their first use and then kept, 48 bytes each.
+Lists of many packings should therefore hold them `without_contacts`.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from grainmodes.kernels.neighbours import (
     FRACTION_UNIT,
@@ -40,7 +41,7 @@ from grainmodes.packing.contacts import Contacts, History
 
 @dataclass(frozen=True)
 class Packing:
-    """Grains in a periodic (sheared) square box."""
+    """Grains in a periodic (sheared) square box; shapes, types and units are in the table above."""
 
     fraction: np.ndarray
     diameter: np.ndarray
@@ -51,28 +52,42 @@ class Packing:
     history: History | None = None
 
     @classmethod
-    def from_positions(cls, position, diameter, box_length, strain=0.0, mass=None, history=None):
-        """A packing from absolute positions (N, 2) in d; the masses (N,) default to d_i² (A, B).
+    def from_positions(
+        cls,
+        position: ArrayLike,
+        diameter: ArrayLike,
+        box_length: float,
+        strain: float = 0.0,
+        mass: ArrayLike | None = None,
+        history: History | None = None,
+    ) -> Packing:
+        """A packing from absolute positions (N, 2) in d, in the frame of the sheared box.
+
+        Args:
+            diameter: (N,) in d.
+            mass: (N,) in m; d_i² by default (A, B).
+            history: springs in any order of the pairs.
 
         Raises:
             PackingError: shapes disagree, a number is not finite, a diameter or L not positive.
         """
-        position = np.asarray(position, float)
-        diameter = np.array(diameter, float)
-        mass = diameter**2 if mass is None else np.array(mass, float)
-        check_grains(position, diameter, mass)
-        check_box(diameter, box_length, strain)
+        places, diameters = np.asarray(position, float), np.array(diameter, float)
+        masses = diameters**2 if mass is None else np.array(mass, float)
+        check_grains(places, diameters, masses)
+        check_box(diameters, box_length, strain)
         check_springs(history)
-        y = position[:, 1] / box_length
-        x = position[:, 0] / box_length - strain * y
+        y = places[:, 1] / box_length
+        x = places[:, 0] / box_length - strain * y
         return cls(
             np.stack([to_fraction(x), to_fraction(y)]),
-            diameter,
-            mass,
+            diameters,
+            masses,
             float(box_length),
             float(strain),
             None,
-            history and History.from_pairs(history.i, history.j, history.spring_state),
+            None
+            if history is None
+            else History.from_pairs(history.i, history.j, history.spring_state),
         )
 
     def checked(self) -> Packing:
@@ -156,7 +171,7 @@ class Packing:
         """The same grains with these spring states (C,) in the contacts, in d or k_N d^(3/2)."""
         contacts = self.contacts
         loaded = replace(self, history=History(contacts.i, contacts.j, spring_state))
-        return loaded._knowing(replace(contacts, spring_state=spring_state))
+        return loaded._with_contacts(replace(contacts, spring_state=spring_state))
 
     def without(self, mask: np.ndarray) -> Packing:
         """The packing without the grains of a mask (N,) bool: renumbered, with its springs."""
@@ -170,9 +185,9 @@ class Packing:
             history=None if self.history is None else self.history.among(keep),
         )
         known = "contacts" in self.__dict__ and keep.any()
-        return smaller._knowing(self.contacts.among(keep)) if known else smaller
+        return smaller._with_contacts(self.contacts.among(keep)) if known else smaller
 
-    def _knowing(self, contacts: Contacts) -> Packing:
+    def _with_contacts(self, contacts: Contacts) -> Packing:
         """This packing, its contacts given instead of computed."""
         self.__dict__["contacts"] = contacts
         return self

@@ -69,7 +69,7 @@ def without_contact(equilibrium: EquilibriumState, place: int) -> EquilibriumSta
         *(getattr(contacts, name)[kept] for name in ("i", "j", "normal", "distance", "overlap")),
         None if s is None else s[kept],
     )
-    packing = equilibrium.packing.without_contacts()._knowing(less)
+    packing = equilibrium.packing.without_contacts()._with_contacts(less)
     return EquilibriumState(packing, equilibrium.backbone_mask, equilibrium.interaction)
 
 
