@@ -86,7 +86,7 @@ def test_ten_images_further_every_contact_is_found(strain):
         )
         twin = Packing.from_positions(affine, packing.diameter, packing.box_length, strain)
         np.testing.assert_allclose(
-            net_force(further, there, interaction),
+            net_force(further, interaction),
             net_force(twin, interaction),
             atol=1e-13,
         )
