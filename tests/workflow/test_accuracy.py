@@ -9,7 +9,10 @@ from measurements.accuracy import NAMES
 from .conftest import jobs_in
 
 
-@pytest.mark.parametrize(("target", "size"), [("accuracy", "small"), ("accuracy_large", "large")])
+@pytest.mark.parametrize(
+    ("target", "size"),
+    [("accuracy", "small"), pytest.param("accuracy_large", "large", marks=pytest.mark.slow)],
+)
 def test_every_choice_is_measured_and_drawn(fresh, target, size):
     plan = fresh.run("-n", "-p", target)
     count = len(NAMES)
@@ -18,6 +21,7 @@ def test_every_choice_is_measured_and_drawn(fresh, target, size):
     assert sorted(asked) == sorted((name, size, size, name) for name in NAMES)
 
 
+@pytest.mark.slow
 def test_a_choice_is_measured_anew_when_what_it_calls_is_edited(fresh):
     for name in NAMES:
         for form in ("csv", "png", "pdf"):

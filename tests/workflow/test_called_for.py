@@ -31,7 +31,11 @@ SCENES = {
 """Name → observables, other keys, and the jobs that they add."""
 
 
-@pytest.fixture(params=SCENES)
+SLOW = {"eigenvalues": pytest.mark.slow}
+"""Scenes whose path through the workflow another scene takes, too."""
+
+
+@pytest.fixture(params=[pytest.param(name, marks=SLOW.get(name, ())) for name in SCENES])
 def asked(request, fresh):
     """(observables, jobs, plan) of a scene that asks for nothing else and draws what it can."""
     observables, keys, jobs = SCENES[request.param]
