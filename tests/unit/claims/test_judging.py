@@ -1,10 +1,10 @@
-"""How parts with errors become a verdict, and where the errors come from."""
+"""How parts with errors become a verdict."""
 
 import numpy as np
 import pytest
 
 from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_RESOLVED, Outcome, Part, claim
-from grainmodes.statistics.estimates import Estimate, crossing, jackknife, mean, relative_difference
+from grainmodes.statistics.estimates import Estimate
 
 
 @pytest.mark.parametrize(
@@ -40,22 +40,3 @@ def test_the_worst_part_decides_and_is_named():
         "are contradicted: 2 of 3, the farthest outside first. worse: 4.00(10); bad: 3.00(10)."
         in verdict.explanation
     )
-
-
-def test_the_jackknife_of_a_mean_is_its_standard_error():
-    values = np.random.default_rng(3).normal(size=7)
-    assert jackknife(np.mean, values) == pytest.approx(mean(values))
-    assert mean(values).error == pytest.approx(values.std(ddof=1) / 7**0.5)
-
-
-def test_what_packings_share_drops_out_of_a_paired_difference():
-    reference = np.random.default_rng(4).normal(5.0, 2.0, 8)
-    assert relative_difference(1.02 * reference, reference) == pytest.approx((0.02, 0.0), abs=1e-12)
-
-
-def test_a_crossing_is_found_between_the_points_of_the_grid():
-    kappas = np.array([1e-2, 1.0, 2.0, 10.0])
-    rows = np.log(kappas / 3.0) * np.array([[0.9], [1.0], [1.1]])
-    assert crossing(kappas, rows) == pytest.approx((3.0, 0.0), abs=1e-9)
-    assert crossing(kappas[:3], rows[:, :3]) == pytest.approx((2.0, 0.0))
-    assert crossing(kappas[3:], rows[:, 3:]) == pytest.approx((10.0, 0.0))
