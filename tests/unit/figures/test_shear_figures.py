@@ -41,6 +41,11 @@ def test_a_curve_knows_what_happened_in_its_steps(sheared):
     assert_allclose(curve.strain[approach.states], [2e-3, 3e-3, 4e-3, 4.01e-3])
 
 
+def test_a_failed_sample_has_no_curve(sheared):
+    failed = sheared.assign(converged=sheared["converged"].where(sheared["seed"] != 1, 0))
+    assert sorted(curves(failed, 16, 0.9, 1.0)) == [0, 2]
+
+
 def test_an_approach_begins_after_the_last_change():
     curve = curves(claim_fixtures_shear.ensemble(), 64, 0.9, 1.0)[0]
     for first, last in curve.approaches:
