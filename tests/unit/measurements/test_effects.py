@@ -118,7 +118,7 @@ def test_springs_never_loaded_are_not_stored_and_take_the_symmetric_way(monkeypa
     packing = quenched(36, 0.92)
     general = ((pinned_factor, "_GeneralFactor"), (scipy.linalg, "eig"), (scipy.linalg, "eigvals"))
     refuse(monkeypatch, (History, "__init__"), *general)
-    monkeypatch.setattr(Contacts, "displacement", property(None))
+    monkeypatch.setattr(Contacts, "springs", property(None))
     contacts = packing.contacts
     assert contacts.spring_state is None
     assert net_force(packing, FRICTION).shape == (36, 3)
