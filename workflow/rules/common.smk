@@ -125,6 +125,16 @@ def block_read_by(stage):
     return first_block
 
 
+def output_of(stage):
+    """The file of a rule: one for each block of seeds, or one for each point."""
+    return f"{STUDY}/{stage.output}/{POINT if stage.single_sample else RESPONSE}"
+
+
+def message_of(stage):
+    """What a job says when it starts."""
+    return f"{stage.title} at {AT_POINT if stage.single_sample else AT}."
+
+
 def settings_of(stage):
     """The settings of a stage, those of the point's grid where it depends on observables."""
     if not stage.parts("observables"):

@@ -1,28 +1,43 @@
 # Packings -> what the table of stages computes from them, each for one k_T: a rule for each entry.
-
-
-def command_of(stage):
-    """The command of a rule: every stage takes the same arguments."""
-    processes = " --processes {threads}" if stage.parallel else ""
-    return (
-        f"grainmodes {stage.command} {{input.block}} --kt {{wildcards.kt}}{processes}"
-        " --settings {params.settings:q} -o {output}"
-    )
-
+#
+# Snakemake evaluates `shell` when a job runs, after the loop has ended, so that it must not name the
+# variable of the loop; params are evaluated here.
 
 for stage in responses():
+    if stage.parallel:
 
-    rule:
-        name:
-            stage.name
-        input:
-            block=block_read_by(stage),
-            code=sources(*stage.code),
-        output:
-            f"{STUDY}/{stage.output}/{POINT if stage.single_sample else RESPONSE}",
-        params:
-            settings=settings_of(stage),
-        message:
-            f"{stage.title} at {AT_POINT if stage.single_sample else AT}."
-        shell:
-            command_of(stage)
+        rule:
+            name:
+                stage.name
+            input:
+                block=block_read_by(stage),
+                code=sources(*stage.code),
+            output:
+                output_of(stage),
+            params:
+                command=stage.command,
+                settings=settings_of(stage),
+            message:
+                message_of(stage)
+            shell:
+                "grainmodes {params.command} {input.block} --kt {wildcards.kt}"
+                " --processes {threads} --settings {params.settings:q} -o {output}"
+
+    else:
+
+        rule:
+            name:
+                stage.name
+            input:
+                block=block_read_by(stage),
+                code=sources(*stage.code),
+            output:
+                output_of(stage),
+            params:
+                command=stage.command,
+                settings=settings_of(stage),
+            message:
+                message_of(stage)
+            shell:
+                "grainmodes {params.command} {input.block} --kt {wildcards.kt}"
+                " --settings {params.settings:q} -o {output}"
