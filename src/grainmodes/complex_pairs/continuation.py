@@ -75,7 +75,7 @@ def _pass(matrix: sparse.csr_array, basis: Eigenbasis) -> tuple[Eigenbasis, Eige
     perturbation = basis.inverse @ (image - basis.vectors * quotients)
     diagonal = quotients.astype(float) + np.diagonal(perturbation)
     order = np.argsort(diagonal, kind="stable")
-    perturbation = perturbation[order][:, order]
+    perturbation = np.take(perturbation[order], order, axis=1)
     np.fill_diagonal(perturbation, 0.0)
     for part in PARTS:
         found = partitioned_eigensystem(diagonal[order], part * perturbation)

@@ -89,5 +89,4 @@ def orthonormal(vectors: np.ndarray) -> np.ndarray:
 
 def _product(matrix: sparse.csr_array, vectors: np.ndarray) -> np.ndarray:
     """K times every row of vectors (P, 2, M)."""
-    flat: np.ndarray = (matrix @ vectors.reshape(-1, vectors.shape[2]).T).T
-    return flat.reshape(vectors.shape)
+    return np.reshape((matrix @ vectors.reshape(-1, vectors.shape[2]).T).T, vectors.shape)

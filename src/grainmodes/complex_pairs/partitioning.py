@@ -96,9 +96,9 @@ def _solve_window(matrix: Arrays, strong: np.ndarray, first: int, last: int) -> 
     block = perturbation[np.ix_(modes, modes)] - np.diag(distance[modes])
     distance[modes] = np.inf  # so that the sums over R leave out C
     inverse = (1.0 / distance).astype(np.float32)
-    b_cr, b_rc = perturbation[modes] * inverse, transposed[modes].T
-    slope = np.eye(len(modes), dtype=np.float32) + (b_cr * inverse) @ b_rc
-    reduced = np.linalg.solve(slope, block + b_cr @ b_rc)
+    b_cr = perturbation[modes] * inverse
+    second, slope = np.vsplit(np.vstack([b_cr, b_cr * inverse]) @ transposed[modes].T, 2)
+    reduced = np.linalg.solve(np.eye(len(modes), dtype=np.float32) + slope, block + second)
     real, imaginary, _, vectors, _ = lapack.sgeev(reduced, compute_vl=0, overwrite_a=1)
     return modes, middle + real.astype(float) + 1j * imaginary, vectors.T
 

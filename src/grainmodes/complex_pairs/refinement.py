@@ -96,10 +96,11 @@ def refined_subspaces(
     for _ in range(MAX_STEPS):
         if not unconverged.any():
             break
-        start = Subspaces(*(part[unconverged] for part in subspaces))
-        vectors = _newton_step(start, basis, found.values, modes[unconverged])
+        chosen = slice(None) if unconverged.all() else unconverged  # without a copy of all
+        start = Subspaces(*(part[chosen] for part in subspaces))
+        vectors = _newton_step(start, basis, found.values, modes[chosen])
         for part, better in zip(subspaces, Subspaces.spanned_by(matrix, *vectors), strict=True):
-            part[unconverged] = better
+            part[chosen] = better
         unconverged = ~(subspaces.residual < RESIDUAL_TOLERANCE)
         if unconverged.sum() > MAX_UNCONVERGED * len(unconverged):
             return None
