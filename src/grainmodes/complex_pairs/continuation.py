@@ -32,8 +32,8 @@ from grainmodes.complex_pairs.refinement import Eigenbasis, refined_subspaces
 TRACE_TOLERANCE = 1e-3
 """|Σλ − tr B| above which the subspaces are not refined, k_N d^(1/2)/m."""
 
-MAX_PASSES, PARTS = 5, (1.0, 0.5, 0.25)
-"""Passes for one K, after which LAPACK costs no more, and parts of E that each pass tries."""
+MAX_PASSES, MAX_HALVINGS = 5, 2
+"""Passes for one K, after which LAPACK costs no more, and halvings of E in each pass."""
 
 
 class EigenbasisContinuation:
@@ -77,9 +77,10 @@ def _pass(matrix: sparse.csr_array, basis: Eigenbasis) -> tuple[Eigenbasis, Eige
     order = np.argsort(diagonal, kind="stable")
     perturbation = np.take(perturbation[order], order, axis=1)
     np.fill_diagonal(perturbation, 0.0)
-    for part in PARTS:
-        found = partitioned_eigensystem(diagonal[order], part * perturbation)
+    for halvings in range(MAX_HALVINGS + 1):
+        found = partitioned_eigensystem(diagonal[order], perturbation)
         if found is not None:
             moved = Eigenbasis.from_vectors(basis.vectors[:, order] @ found.rows.T)
-            return moved, found if part == 1.0 else found._replace(trace_defect=np.inf)
+            return moved, found._replace(trace_defect=np.inf) if halvings else found
+        perturbation *= 0.5
     return basis, None

@@ -26,8 +26,7 @@ from grainmodes.complex_pairs.partitioning import Eigensystem
 from grainmodes.response.stability import REAL_TOLERANCE
 
 RESIDUAL_TOLERANCE, MAX_STEPS = 1e-4, 3
-"""Residual of a converged subspace, in units of max|K|, to be reached in so many Newton steps; λ is
-right to about its square."""
+"""Residual of a converged subspace, in units of max|K|, and Newton steps to reach it."""
 
 MAX_NEAR_DEGENERATE, MAX_UNCONVERGED = 0.25, 0.125
 """Near-degenerate neighbours per mode, and share of unconverged subspaces after a step, above which
