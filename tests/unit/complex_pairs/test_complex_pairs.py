@@ -382,10 +382,15 @@ def test_a_partitioning_is_the_dense_eigensystem():
 
 def walk(coefficient: float, steps: int) -> list[DynamicalMatrix]:
     """K of 64 grains of mass 1 in the states of a shear to γ = 1e-3 `steps`."""
-    law = Interaction.from_law(ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, coefficient))
+    interaction = Interaction.from_law(
+        ContactLaw("hertz", "smoothed_coulomb", 2.0 / 7.0, coefficient)
+    )
     choices = Shear(step=1e-3, min_step=1e-3, force_tolerance=5e-14)
     packing = reference("hertz_n64_phi0.900_seed1")[1]
-    state, states = first_equilibrium(replace(packing, mass=np.ones(packing.n)), law, choices), []
+    state, states = (
+        first_equilibrium(replace(packing, mass=np.ones(packing.n)), interaction, choices),
+        [],
+    )
     for step in range(1, steps + 1):
         state, _ = step_to(1e-3 * step, state, choices)
         matrix = mass_weighted_jacobian(state.matrix, state.backbone.mass)
