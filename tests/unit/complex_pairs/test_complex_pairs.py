@@ -45,10 +45,10 @@ from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.response.stability import count_complex_pairs
 
 
-def problem(matrix: sparse.csr_array, held: np.ndarray | None = None) -> DynamicalMatrix:
-    """K with no zero modes told; every grain carries load unless `held` says otherwise."""
-    held = np.ones(matrix.shape[0] // 3, bool) if held is None else held
-    return DynamicalMatrix(matrix, np.zeros((matrix.shape[0], 0)), held)
+def problem(matrix: sparse.csr_array, backbone: np.ndarray | None = None) -> DynamicalMatrix:
+    """K without zero modes, on the whole packing unless a backbone is given."""
+    backbone = np.ones(matrix.shape[0] // 3, bool) if backbone is None else backbone
+    return DynamicalMatrix(matrix, np.zeros((matrix.shape[0], 0)), backbone)
 
 
 @pytest.fixture(scope="module")
@@ -253,7 +253,7 @@ def test_modes_that_couple_to_all_others_stand_in_every_window(monkeypatch):
     )
 
 
-def test_couples_know_the_pairs_and_what_they_lack(matrix):
+def test_subspaces_know_their_pairs_and_residuals(matrix):
     expected = dense_pairs(matrix)
     planes = (
         np.stack([side.real.T, side.imag.T], axis=1) for side in (expected.right, expected.left)
@@ -287,14 +287,14 @@ def test_a_pair_between_other_modes_is_refined_subspaces(imaginary):
     rough = Subspaces.spanned_by(
         matrix, basis.vectors.T[at].astype(float), basis.inverse[at].astype(float)
     )
-    couples, expected = refined_subspaces(matrix, basis, found), dense_pairs(matrix)
+    subspaces, expected = refined_subspaces(matrix, basis, found), dense_pairs(matrix)
     assert rough.residual.min() > 10 * RESIDUAL_TOLERANCE
-    assert couples.residual.max() < RESIDUAL_TOLERANCE
-    assert_allclose(couples.pairs.value, expected.value, atol=1e-6)
-    assert_allclose(couples.pairs.condition, expected.condition, rtol=2e-2)
+    assert subspaces.residual.max() < RESIDUAL_TOLERANCE
+    assert_allclose(subspaces.pairs.value, expected.value, atol=1e-6)
+    assert_allclose(subspaces.pairs.condition, expected.condition, rtol=2e-2)
 
 
-def test_pairs_carried_on_are_those_of_lapack():
+def test_continued_pairs_are_those_of_lapack():
     detector, seen = EigenbasisContinuation(), 0
     for matrix in path(120, 0.03):
         found, expected = detector.find(problem(matrix)), dense_pairs(matrix)
@@ -335,7 +335,7 @@ def test_what_is_too_far_is_reached_on_the_way(monkeypatch, refused):
     assert_allclose(found.value, expected.value, atol=1e-6)
 
 
-def test_lapack_solves_what_cannot_be_carried_on(monkeypatch):
+def test_lapack_solves_what_cannot_be_continued(monkeypatch):
     first, *_, last = path(120, 0.03)
     detector = EigenbasisContinuation()
     detector.find(problem(first))

@@ -58,7 +58,7 @@ def test_every_state_is_there_from_none_to_some_pairs(found):
     assert found.attributes["failures"] == {}
 
 
-def test_lives_add_up_to_the_pairs_of_every_state(found):
+def test_tracks_add_up_to_the_pairs_of_every_state(found):
     values = {name: array[0] for name, array in found.variables.items()}
     size = values["track_count"]
     born, died = values["track_birth_after"][:size], values["track_death_after"][:size]
@@ -93,7 +93,7 @@ def test_lapack_finds_the_same_pairs(packing, found):
     assert found.variables["pair_dense"][0].sum() < 10
 
 
-def test_windows_find_the_same_pairs(packing, found):
+def test_a_disc_sweep_finds_the_same_pairs(packing, found):
     asked = replace(ASKED, detection="discs")
     other = complex_pairs_block(packings(packing), LAW, SHEAR, asked).variables
     assert np.array_equal(other["pair_count"][0], found.variables["pair_count"][0])

@@ -58,7 +58,7 @@ def first_change(packing, mode: np.ndarray) -> tuple[float, bool]:
 
 
 @pytest.mark.parametrize("opens", [True, False])
-def test_the_room_is_where_contacts_change_on_the_way(opens):
+def test_the_linear_range_is_where_contacts_change_first(opens):
     equilibrium = sheared_equilibrium() if opens else nearly_closed(sheared_equilibrium())
     modes = motions(equilibrium)
     found = [first_change(equilibrium.packing, mode) for mode in np.moveaxis(modes, 2, 0)]
@@ -87,7 +87,7 @@ def nearly_closed(equilibrium: EquilibriumState) -> EquilibriumState:
     )
 
 
-def test_the_room_is_one_of_a_direction_and_not_of_a_vector():
+def test_the_linear_range_depends_on_a_direction_and_not_on_its_norm():
     equilibrium = sheared_equilibrium()
     modes = motions(equilibrium)
     np.testing.assert_allclose(
@@ -95,7 +95,7 @@ def test_the_room_is_one_of_a_direction_and_not_of_a_vector():
     )
 
 
-def test_a_loose_grain_takes_no_room():
+def test_a_loose_grain_does_not_limit_the_linear_range():
     """A grain that only one contact holds is put down at zero overlap."""
     equilibrium = sheared_equilibrium()
     weakest = np.argmin(equilibrium.packing.contacts.overlap)
@@ -118,12 +118,12 @@ def narrowed(equilibrium: EquilibriumState) -> EquilibriumState:
     )
 
 
-def seen(equilibrium: EquilibriumState) -> PairState:
+def pair_state(equilibrium: EquilibriumState) -> PairState:
     return detect_pairs(DenseDetector(), equilibrium)
 
 
 def test_a_state_next_to_a_change_of_contacts_is_passed_over():
-    wide, narrow = seen(sheared_equilibrium()), seen(narrowed(sheared_equilibrium()))
+    wide, narrow = pair_state(sheared_equilibrium()), pair_state(narrowed(sheared_equilibrium()))
     assert len(narrow.pairs.value) > 0
     chosen = fastest_candidate(wide, 0.0)
     assert chosen.growth == wide.pairs.growth.max() == wide.pairs.growth[chosen.place]
@@ -133,18 +133,18 @@ def test_a_state_next_to_a_change_of_contacts_is_passed_over():
     assert fastest_candidate(wide, chosen.growth) is None
 
 
-def test_of_the_pairs_of_a_state_the_fastest_with_room_is_taken(monkeypatch):
-    start = seen(sheared_equilibrium())
+def test_the_candidate_is_the_fastest_pair_with_a_sufficient_range(monkeypatch):
+    start = pair_state(sheared_equilibrium())
     motions_of_pairs = start.motions(np.arange(len(start.pairs.value)))
-    growth, room = start.pairs.growth, linear_ranges(start.equilibrium, motions_of_pairs)
+    growth, ranges = start.pairs.growth, linear_ranges(start.equilibrium, motions_of_pairs)
     fastest = np.argmax(growth)
-    assert room[fastest] < room.max()
+    assert ranges[fastest] < ranges.max()
     monkeypatch.setattr(
-        "grainmodes.protocols.pair_tracking.linear_range.GROWTH_RANGE", (0.0, room[fastest])
+        "grainmodes.protocols.pair_tracking.linear_range.GROWTH_RANGE", (0.0, ranges[fastest])
     )
     chosen = fastest_candidate(start, 0.0)
-    assert chosen.growth == growth[room > room[fastest]].max()
-    assert chosen.linear_range == room[chosen.place]
+    assert chosen.growth == growth[ranges > ranges[fastest]].max()
+    assert chosen.linear_range == ranges[chosen.place]
 
 
 def test_a_release_changes_its_contacts_where_linear_theory_says():
