@@ -4,7 +4,7 @@ A pair spans a real plane, Re u and Im u, with a right basis R and a left basis 
 projector R Lᵀ of the old pair takes the part |Lᵀ R'|/√2 out of the plane R' of a new one. This
 overlap is 1 for the same plane and, unlike the product of right eigenvectors, 0 for every other
 plane of the same matrix. Two pairs are the same one if each has its largest overlap with the other
-and both overlaps are above `MIN_OVERLAP`.
+and both overlaps are above `MIN_PROJECTOR_OVERLAP`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy as np
 from grainmodes.complex_pairs.definition import ComplexPairs
 from grainmodes.complex_pairs.invariant_subspaces import orthonormal
 
-MIN_OVERLAP = 0.5
+MIN_PROJECTOR_OVERLAP = 0.5
 """Projector overlap above which two pairs are the same."""
 
 
@@ -44,7 +44,9 @@ def match_pairs(old: PairProjectors, new: PairProjectors) -> list[tuple[int, int
     overlap = np.minimum(projector_overlap(old, new), projector_overlap(new, old).T)
     forth, back = overlap.argmax(axis=1), overlap.argmax(axis=0)
     return [
-        (i, j) for i, j in enumerate(forth.tolist()) if back[j] == i and overlap[i, j] > MIN_OVERLAP
+        (i, j)
+        for i, j in enumerate(forth.tolist())
+        if back[j] == i and overlap[i, j] > MIN_PROJECTOR_OVERLAP
     ]
 
 

@@ -25,12 +25,10 @@ from grainmodes.kernels.neighbours import Neighbours, find_neighbours
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import max_force_and_torque, net_force
 from grainmodes.packing.state import Packing
+from grainmodes.relaxation.frictionless import SKIN
 from grainmodes.relaxation.result import RelaxationResult
 
 Damping = Dashpot | Drag | Undamped
-
-SKIN = 0.2
-"""Verlet skin in d."""
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ import scipy.sparse as sparse
 from scipy.sparse.linalg import LinearOperator, eigs
 
 from grainmodes.kernels.laws import Interaction
-from grainmodes.linalg.pinned_factor import PinnedFactor
+from grainmodes.linalg.pinned_factor import MAX_DENSE_SIZE, PinnedFactor
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.packing.state import Packing
@@ -55,10 +55,6 @@ def asymmetry(matrix: sparse.csc_array) -> float:
     """max|J − Jᵀ| / max|J|; 0 for an empty J. In B, App. D3, it is 0, without −(f_T/r) n tᵀ."""
     largest = abs(matrix).max() if matrix.nnz else 0.0
     return float(abs(matrix - matrix.T).max() / largest) if largest else 0.0
-
-
-MAX_DENSE_SIZE = 60
-"""Degrees of freedom up to which the lowest eigenvalue is found by LAPACK."""
 
 
 def lowest_eigenvalue(matrix: sparse.csc_array, factor: PinnedFactor, k: int) -> float:

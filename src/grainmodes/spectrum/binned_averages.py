@@ -23,9 +23,10 @@ from grainmodes.linalg.symmetric_shift import SymmetricShift
 from grainmodes.parameters.spectra import DENSE_COUNTS_UP_TO, DENSE_MODES_UP_TO, SpectrumChoices
 from grainmodes.spectrum import dense, slice_eigenpairs
 from grainmodes.spectrum.eigenproblem import Eigenproblem, Numbers
-from grainmodes.spectrum.inertia_counts import BinSums, count_below, rotational_sums
+from grainmodes.spectrum.inertia_counts import count_below, rotational_sums
 from grainmodes.spectrum.measures import participation_ratio, rotational_fraction
 from grainmodes.spectrum.spectrum_slicing import CountedShift, SpectralSlice, shift_at_count
+from grainmodes.statistics.binning import BinSums
 
 SAMPLED_GROUPS = 8
 """Number of shifts in a bin around which modes are sampled."""

@@ -31,19 +31,11 @@ bias ≈ (joined − single)/3.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
 from grainmodes.linalg.symmetric_shift import SymmetricShift
-
-
-class BinSums(NamedTuple):
-    """Sum over the modes of each bin (B,), and its standard error (B,)."""
-
-    total: NDArray[np.float64]
-    error: NDArray[np.float64]
+from grainmodes.statistics.binning import BinSums
 
 
 def count_below(shift: SymmetricShift, frequency: NDArray[np.float64]) -> NDArray[np.int64]:

@@ -33,7 +33,7 @@ from grainmodes.statistics.binning import BinSums
 TRANSLATIONS = 2
 """Zero modes of every rigid sample under periodic boundaries."""
 
-ROUND_OFF = 1e-14
+ZERO_MODE_RATIO = 1e-14
 """|lambda| / lambda_max below which a symmetric eigensolver cannot tell an eigenvalue from zero."""
 
 
@@ -85,7 +85,7 @@ def frequencies(eigenvalue: np.ndarray) -> Frequencies:
     magnitude = np.abs(eigenvalue)
     present = np.isfinite(eigenvalue)
     rank = magnitude.argsort(axis=1).argsort(axis=1)
-    zero_cutoff = ROUND_OFF * np.where(present, magnitude, 0.0).max(axis=1, keepdims=True)
+    zero_cutoff = ZERO_MODE_RATIO * np.where(present, magnitude, 0.0).max(axis=1, keepdims=True)
     zero = present & ((rank < TRANSLATIONS) | (magnitude <= zero_cutoff))
     negative = present & ~zero & (eigenvalue < 0.0)
     squared = np.where(present & ~zero & ~negative, eigenvalue, np.nan)

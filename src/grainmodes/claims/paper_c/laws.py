@@ -25,7 +25,7 @@ MIN_SHARE = 0.5
 MAX_SHARE = 0.02
 """Share of states below which a sample counts as one without pairs."""
 
-GROWTH_RANGE = (0.9, 1.1)
+AGREEMENT_RANGE = (0.9, 1.1)
 """Range of the growth over ω_i that agrees with linear theory."""
 
 MAX_GROWTH = 0.1
@@ -47,7 +47,7 @@ def smoothed_is_unstable(ensemble) -> Outcome:
     for point in points:
         pairs = _by_state(samples, "pairs_slipping", "smoothed_coulomb", point)
         parts.append(Part(f"born, {label(*point)}", mean(_born(pairs)), MIN_SHARE))
-        parts.append(Part(f"growth, {label(*point)}", _growth(samples, point), *GROWTH_RANGE))
+        parts.append(Part(f"growth, {label(*point)}", _growth(samples, point), *AGREEMENT_RANGE))
         notes.append(f"A state has {mean(np.nanmean(pairs, axis=1))} pairs at {label(*point)}.")
     return Outcome(_resolved(parts), " ".join(notes))
 

@@ -45,7 +45,7 @@ PHI_STEPS = 20
 STEP_FORCE_RATIO = 1e-2
 """max|F̃| after a step of φ, relative to the mean contact force before it."""
 
-HANDOVER_FORCE_RATIO = 1e-6
+NEWTON_FORCE_RATIO = 1e-6
 """max|F̃| at which Newton's method takes over, relative to the mean contact force."""
 
 MAX_TIME_STEPS = 20_000
@@ -91,7 +91,7 @@ def frictional_compression(
         compressed = current.at(float(phi))
         relaxed = _relax(compressed, interaction, STEP_FORCE_RATIO, MAX_TIME_STEPS)
         current, steps = relaxed.packing, steps + relaxed.iterations
-    relaxed = _relax(current, interaction, HANDOVER_FORCE_RATIO, PHI_STEPS * MAX_TIME_STEPS)
+    relaxed = _relax(current, interaction, NEWTON_FORCE_RATIO, PHI_STEPS * MAX_TIME_STEPS)
     return _final_balance(relaxed.packing, interaction, tolerance, steps + relaxed.iterations)
 
 
