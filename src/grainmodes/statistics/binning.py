@@ -35,8 +35,8 @@ stiffest harmonic one, and that of the effective Hessian as printed, near 2.4.""
 class BinSums(NamedTuple):
     """Sums of a number per mode over the modes of each bin, with the error stated for each.
 
-    `total` is NaN where the number is not known, `error` 0 where the sum is exact; both are (B,) for
-    one sample of B bins, or (S, B) for S samples.
+    `total` is NaN where the number is not known, `error` 0 where the sum is exact; both
+    are (B,) for one sample of B bins, or (S, B) for S samples.
     """
 
     total: np.ndarray

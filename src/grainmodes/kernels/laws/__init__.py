@@ -101,9 +101,6 @@ class Interaction(NamedTuple):
             raise ValueError(f"kt: expected a tangential stiffness of 0 or more, got {law.kt}")
         return cls(NORMAL[law.normal](1.0), _tangential(law))
 
-    def without_friction(self) -> Interaction:
-        """The same normal law without tangential force."""
-        return self._replace(tangential=Frictionless())
 
 
 def _tangential(law: ContactLaw) -> TangentialLaw:
