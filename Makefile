@@ -16,8 +16,8 @@ CONFIG ?=
 BIN := .venv/bin
 READY := .venv/ready
 
-# The tests of one file, or of one group named in tests/conftest.py, run in one process.
-PYTEST := $(BIN)/python -m pytest --numprocesses $(WORKERS) --dist loadgroup --no-loadscope-reorder
+# Each process takes whole files, the longest unit first (tests/conftest.py).
+PYTEST := $(BIN)/python -m pytest --numprocesses $(WORKERS) --no-loadscope-reorder
 
 .PHONY: study test test-slow test-all pardiso lint clean
 .NOTPARALLEL:

@@ -1,8 +1,7 @@
-"""One thread, a cache of compiled kernels that belongs to the code under test, and the work units.
+"""One thread, a cache of compiled kernels that belongs to the code under test, and units of work.
 
-With pytest-xdist (`make test`) the tests of a file run on one worker, because they share packings
-and compiled kernels; so do all tests that use the tiny study of `tests/workflow`, which is built
-once.
+With pytest-xdist (`make test`) the tests of a file run in one process, because they share packings
+and compiled kernels. All of `tests/workflow` is one unit, because its tiny study is built once.
 """
 
 import pytest
@@ -12,10 +11,19 @@ from grainmodes.runtime.environment import prepare
 prepare()
 
 
-@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Give every test its work unit, and let the long tests of the workflow start first."""
-    for item in items:
-        unit = "built" if "built" in item.fixturenames else item.nodeid.partition("::")[0]
-        item.add_marker(pytest.mark.xdist_group(unit))
+    """Let the longest unit, the workflow, start first."""
     items.sort(key=lambda item: "workflow" not in item.path.parts)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """Hand out whole files, and the workflow as one unit: `loadgroup` does nothing in pytest 9."""
+    from xdist.scheduler import LoadFileScheduling
+
+    class Units(LoadFileScheduling):
+        def _split_scope(self, nodeid):
+            room = "tests/workflow/"
+            return room if nodeid.startswith(room) else super()._split_scope(nodeid)
+
+    return Units(config, log)
