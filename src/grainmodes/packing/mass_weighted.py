@@ -23,12 +23,12 @@ INERTIA = np.array([1.0, 1.0, 0.5])
 
 def generalized_mass(mass: np.ndarray) -> np.ndarray:
     """M, the inertia of (x, y, ℓ) of every grain, (N, 3) for masses (N,)."""
-    return mass[:, None] * INERTIA
+    return np.asarray(mass[:, None] * INERTIA)
 
 
 def root_mass(mass: np.ndarray) -> np.ndarray:
     """M^(1/2), (N, 3) for masses (N,)."""
-    return np.sqrt(generalized_mass(mass))
+    return np.asarray(np.sqrt(generalized_mass(mass)))
 
 
 def mass_weighted_jacobian(matrix: sparse.sparray, mass: np.ndarray) -> sparse.csr_array:
