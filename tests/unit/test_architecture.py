@@ -4,7 +4,7 @@ import configparser
 import re
 from pathlib import Path
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "src" / "grainmodes"
 LIBRARIES = {"matplotlib", "numba", "pandas", "xarray"}
 
@@ -64,3 +64,10 @@ def test_the_last_column_is_what_the_forbidden_contracts_leave():
 
 def test_a_page_is_a_page():
     assert len((ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8").splitlines()) <= 100
+
+
+def test_the_unit_tests_mirror_the_rooms():
+    tests = ROOT / "tests" / "unit"
+    folders = {path.relative_to(tests) for path in tests.rglob("*") if list(path.glob("test_*.py"))}
+    rooms = {path.relative_to(PACKAGE) for path in PACKAGE.rglob("*") if path.is_dir()}
+    assert folders - rooms <= {Path("measurements")}
