@@ -102,7 +102,6 @@ class Interaction(NamedTuple):
         return cls(NORMAL[law.normal](1.0), _tangential(law))
 
 
-
 def _tangential(law: ContactLaw) -> TangentialLaw:
     if not law.frictional:
         return Frictionless()
