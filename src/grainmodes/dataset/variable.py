@@ -20,8 +20,11 @@ class Variable(NamedTuple):
     long_name: str
 
 
-NOT_GATHERED = {"grain", "contact", "frame", "spectrum", "binary", "record", "pair"}
-"""Dimensions of what stays in the files of single samples: grains, contacts, moments of a run."""
+NOT_GATHERED = {
+    *("grain", "contact", "contact_before", "contact_after", "binary_before", "binary_after"),
+    *("frame", "record", "spectrum", "pair"),
+}
+"""Dimensions of what stays in the files of a stage: grains, contacts, moments of a run."""
 
 
 def is_gathered(variable: Variable) -> bool:
