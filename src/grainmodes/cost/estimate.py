@@ -29,7 +29,7 @@ def _gathering(scene: Scene, table: Table, largest: int) -> Item:
     nothing = Job(0, 0.0, 0.0)
     chains = [[nothing] * 3, *([nothing] for _ in [*scene.points[1:], *scene.figures])]
     free = GrowthLaw(0.0, 0.0, 0.0, 0.0, largest)
-    return Item.of("gather", None, largest, chains, [free], table)
+    return Item.from_chains("gather", None, largest, chains, [free], table)
 
 
 def wall_seconds(items: Iterable[Item], cores: int) -> float:

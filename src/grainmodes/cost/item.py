@@ -36,7 +36,7 @@ class Item:
     up_to: int
 
     @classmethod
-    def of(
+    def from_chains(
         cls,
         stage: str,
         grid: int | None,

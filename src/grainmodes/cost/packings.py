@@ -51,7 +51,7 @@ def _compress(table: Table, n: int, whole: float, files: list[tuple[float, str]]
         return [Job(size, size * whole * part, disk) for part in parts]
 
     chains = [climb(len(parse_seeds(block)), phi) for block, phi in top.items()]
-    return Item.of("compress", None, n, chains, [table.laws["trajectory"]], table)
+    return Item.from_chains("compress", None, n, chains, [table.laws["trajectory"]], table)
 
 
 def _pack(table: Table, n: int, whole: float, files: list[tuple[float, str]]) -> Item:
@@ -62,4 +62,4 @@ def _pack(table: Table, n: int, whole: float, files: list[tuple[float, str]]) ->
         return Job(size, size * (whole * way + balance), size * n * table.disk["packing"])
 
     chains = [[branch(len(parse_seeds(block)), phi)] for phi, block in files]
-    return Item.of("equilibrate", None, n, chains, [table.laws["equilibrate"]], table)
+    return Item.from_chains("equilibrate", None, n, chains, [table.laws["equilibrate"]], table)

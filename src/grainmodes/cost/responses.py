@@ -56,7 +56,7 @@ def _response(
         chains += [[Job(size, size * seconds, size * disk)] for size in sizes]
         used |= set(units)
     laws = [table.growth_law(name) for name in sorted(used)]
-    return Item.of(stage, place, points[0].n, chains, laws, table)
+    return Item.from_chains(stage, place, points[0].n, chains, laws, table)
 
 
 def _stored(stage: str, kind: str, point: Point, table: Table) -> float:
