@@ -81,7 +81,7 @@ def partitioned_eigensystem(diagonal: np.ndarray, perturbation: np.ndarray) -> E
 
 
 def strongly_coupled(perturbation: np.ndarray, transposed: np.ndarray) -> np.ndarray:
-    """Places of the modes that couple most to all others, if they stand out."""
+    """Places (K,) of the modes that couple most to all others, from E and Eᵀ (M, M); often none."""
     coupling = np.abs(np.einsum("kl,kl->k", perturbation, transposed))
     most = np.argsort(-coupling)[:MAX_STRONG]
     return most[np.flatnonzero(coupling[most] > STRONG_COUPLING * np.median(coupling))]

@@ -72,7 +72,7 @@ class GeneralShift:
         return self._refined(self._shifted, right, "N")
 
     def solve_transposed(self, right: np.ndarray) -> np.ndarray:
-        """(K − σ)⁻ᵀ b, nothing conjugated."""
+        """(K − σ)⁻ᵀ b for one or several b, (M,) or (M, K); nothing is conjugated."""
         return self._refined(self._shifted.T, right, "T")
 
     def _refined(self, matrix: sparse.sparray, right: np.ndarray, trans: str) -> np.ndarray:

@@ -78,7 +78,7 @@ class Pardiso:
         finalize(self, _release, self._solver, self._upper, self._no_right_side)
 
     def refactor(self, values: NDArray[Number]) -> int:
-        """As `Factorisation.refactor`.
+        """Factor the matrix with entries `values` (nnz,); the number of its negative pivots.
 
         Raises:
             ZeroPivotError: as `Factorisation.refactor`.
@@ -94,7 +94,7 @@ class Pardiso:
         return int(self._solver.get_iparm(NEGATIVE_EIGENVALUES))
 
     def solve(self, right: NDArray[Number]) -> NDArray[Number]:
-        """As `Factorisation.solve`."""
+        """Solutions (M,) or (M, K) of A x = b; as `Factorisation.solve`."""
         columns = np.asfortranarray(right.reshape(len(right), -1))
         return self._run(SOLVE, columns).reshape(right.shape)
 

@@ -36,7 +36,7 @@ class SuperLU:
         self._order: NDArray[np.integer] | None = None
 
     def refactor(self, values: NDArray[Number]) -> int:
-        """As `Factorisation.refactor`."""
+        """Factor the matrix with entries `values` (nnz,); as `Factorisation.refactor`."""
         if self._order is None:
             matrix = sparse.csc_array((values, self._indices, self._indptr), shape=self._shape)
             self._order = elimination_order(matrix)
@@ -55,7 +55,7 @@ class SuperLU:
         return int(np.count_nonzero(upper.diagonal().real < 0.0))
 
     def solve(self, right: NDArray[Number], trans: str = "N") -> NDArray[Number]:
-        """As `Factorisation.solve`; with `trans` "T" the solutions of Aᵀ x = b."""
+        """Solutions (M,) or (M, K) of A x = b, or of Aᵀ x = b where `trans` is "T"."""
         solution = np.empty_like(right)
         solution[self._order] = self._factors.solve(right[self._order], trans)
         return solution

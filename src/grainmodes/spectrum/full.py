@@ -64,7 +64,16 @@ def packing_spectrum(
     forces: NDArray[np.float64] | None = None,
     choices: SpectrumChoices = SpectrumChoices(),
 ) -> FullSpectrum:
-    """The `full_spectrum` of a packing; arguments and errors as there and in `Eigenproblem`."""
+    """The `full_spectrum` of a packing.
+
+    Args:
+        threshold: a grain with at most so many contacts is a rattler, and is left out.
+        keep_rattlers: keep the rattlers in J all the same.
+        forces: (M, F) to project the modes on; the others as in `full_spectrum`.
+
+    Raises:
+        ValueError: as `full_spectrum` and `Eigenproblem.from_packing`, as are all other errors.
+    """
     eigenproblem = Eigenproblem.from_packing(packing, interaction, threshold, keep_rattlers)
     return full_spectrum(eigenproblem, modes, forces, choices)
 
