@@ -20,7 +20,7 @@ class PackingError(ValueError):
 
 
 def to_fraction(value: np.ndarray) -> np.ndarray:
-    """Fractions of the box (...,) float64 as int64 (...,) in units of 2⁻⁶⁴, wrapped to ±1/2."""
+    """Fractions of the box (...,) float64 as int64 in units of 2⁻⁶⁴, wrapped to [−1/2, 1/2)."""
     wrapped = value - np.floor(value)
     # A float64 does not resolve 2⁻⁶⁴, so the upper 32 bits are split off.
     high = np.floor(wrapped * 2.0**32)
