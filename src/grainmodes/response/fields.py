@@ -28,7 +28,8 @@ from grainmodes.packing.state import Packing, nan_on_rattlers, rattlers
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.response.mode_sum import mode_sum
 from grainmodes.response.moduli import rigidity
-from grainmodes.spectrum import Eigenproblem, packing_spectrum, slice_eigenpairs
+from grainmodes.spectrum import Eigenproblem, packing_spectrum
+from grainmodes.spectrum.nearest_eigenpair import nearest_eigenpair
 
 
 @dataclass(frozen=True)
@@ -102,8 +103,6 @@ def nearest_modes(
 
 def _nearest(eigenproblem: Eigenproblem, shift: float) -> tuple[float, np.ndarray]:
     """The eigenpair nearest to a shift, without translations; its largest component is positive."""
-    (value,), vectors = slice_eigenpairs.nearest_eigenpairs(
-        eigenproblem.symmetric_shift(), shift, 1
-    )
+    (value,), vectors = nearest_eigenpair(eigenproblem.symmetric_shift(), shift, eigenproblem.bound)
     vector = vectors[:, 0]
     return value, vector * np.sign(vector[np.argmax(np.abs(vector))])
