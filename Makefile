@@ -3,6 +3,7 @@
 # make test-slow  the slow physics and large systems      make test-all   both
 # make pardiso    add a faster sparse factorisation to the environment (x86-64, MKL's licence)
 # make lint       style, the walls between rooms, and types
+# make handbook the parts of the documentation that follow from tables
 # make clean      forget results, compiled kernels and Snakemake's bookkeeping
 #
 # Needed on the machine: Python >= 3.11 with pip, a C compiler, make. CONFIG=config/paper_a.yaml
@@ -19,7 +20,7 @@ READY := .venv/ready
 # Each process takes whole files, the longest unit first (tests/conftest.py).
 PYTEST := $(BIN)/python -m pytest --numprocesses $(WORKERS) --no-loadscope-reorder
 
-.PHONY: study test test-slow test-all pardiso lint clean
+.PHONY: study test test-slow test-all pardiso lint handbook clean
 .NOTPARALLEL:
 
 study: $(READY)
@@ -42,6 +43,9 @@ lint: $(READY)
 	$(BIN)/snakefmt --check --line-length 100 Snakefile workflow
 	$(BIN)/lint-imports
 	$(BIN)/mypy --no-error-summary | $(BIN)/mypy-baseline filter
+
+handbook: $(READY)
+	$(BIN)/python workflow/scripts/handbook.py
 
 clean:
 	rm -rf results/* .snakemake .numba_cache .pytest_cache .ruff_cache .import_linter_cache .mypy_cache

@@ -8,7 +8,7 @@ smaller Δγ, the larger are the errors of the residual forces, about F_Th / Δ�
 of σ, 1e-16 σ / Δγ. A claims a
 plateau, no dependence on Δγ for 1e-6 … 1e-4. A relaxes by damped dynamics, here Newton's method
 does, which overshoots its F_Th: the last step squares the error. The default rule starts at Δγ and
-divides it by ten until two sizes agree to 1e-6 (`protocols.step_strain`).
+divides it by ten until two sizes agree to 1e-6 (`protocols.shear.step_strain`).
 
 Reference: g by linear response, one solve with J in the same state (`rigidity`).
 """

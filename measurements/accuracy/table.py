@@ -22,7 +22,7 @@ WORDS = ("title", "grains", "setting", "unit", "error", "reference", "machine", 
 
 
 class Table(NamedTuple):
-    """A file in memory: key → words, and a row per setting with the columns of `Row`."""
+    """A file in memory: key → words, and a row per setting with the columns of `DiagramRow`."""
 
     words: dict[str, str]
     rows: pd.DataFrame

@@ -1,7 +1,7 @@
 """k_T/k_N = 0, 1e-16, 1e-12, 1e-10: rotations at 1e-11 and less beside ‖J‖ ~ 1.
 
 Eigenvalues of LAPACK carry 1e-16 ‖J‖, and so does a Krylov space that mixes both bands. At 1e-8 and
-1e-10 see also `unit/test_intervals.py` and `unit/test_shift.py`.
+1e-10 see also `unit/spectrum/test_spectrum_slicing.py` and `unit/linalg/test_symmetric_shift.py`.
 """
 
 import numpy as np

@@ -32,14 +32,14 @@ def _kts(grid: dict) -> list[float]:
 
 
 def _comparison(config: dict) -> Iterator[str]:
-    asked = [grid for grid in config["grids"] if grid["observables"]["law_comparison"]]
-    if asked and config["contact_law"]["friction_coefficient"] is None:
+    requesting = [grid for grid in config["grids"] if grid["observables"]["law_comparison"]]
+    if requesting and config["contact_law"]["friction_coefficient"] is None:
         yield (
             "contact_law.friction_coefficient: expected a number above 0 because "
             "observables.law_comparison is true, and a tangential law that has one "
             f"({', '.join(COULOMB_LAWS)}), got none"
         )
-    for n in (n for grid in asked for n in grid["n"] if n > MAX_GRAINS):
+    for n in (n for grid in requesting for n in grid["n"] if n > MAX_GRAINS):
         yield (
             f"observables.law_comparison: expected grids of at most {MAX_GRAINS} grains, "
             f"got n = {n}"

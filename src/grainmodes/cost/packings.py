@@ -21,11 +21,11 @@ from grainmodes.parameters.grid import (
 
 
 def packings(scene: Scene, table: Table, n: int) -> Iterator[Item]:
-    """The stages compress and pack at n grains."""
+    """The stages compress and equilibrate at n grains."""
     files = _files(scene, n)
     whole = table.laws["trajectory"].seconds_at(n) * table.slowdown(scene.protocol.compression)
     yield _compress(table, n, whole, files)
-    yield _pack(table, n, whole, files)
+    yield _equilibrate(table, n, whole, files)
 
 
 def _files(scene: Scene, n: int) -> list[tuple[float, str]]:
@@ -54,7 +54,7 @@ def _compress(table: Table, n: int, whole: float, files: list[tuple[float, str]]
     return Item.from_chains("compress", None, n, chains, [table.laws["trajectory"]], table)
 
 
-def _pack(table: Table, n: int, whole: float, files: list[tuple[float, str]]) -> Item:
+def _equilibrate(table: Table, n: int, whole: float, files: list[tuple[float, str]]) -> Item:
     balance = table.laws["equilibrate"].seconds_at(n)
 
     def branch(size: int, phi: float) -> Job:

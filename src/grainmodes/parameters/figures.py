@@ -197,7 +197,7 @@ FIGURES = {
     ),
 }
 """Every figure. `rigidity` figures show the simulated step strain as well where a study has it;
-`modes` stands for a spectrum with eigenvectors or band averages, `friction` for a k_T above 0,
-`frictionless` for k_T = 0 beside it, `rattlers` and `hessian` for these variants of the spectrum,
+`modes` stands for a spectrum with eigenvectors or binned averages, `friction` for a k_T above 0,
+`frictionless` for k_T = 0 beside it, `rattlers` and `hessian` for these other spectra,
 `all_modes` for an N whose modes can all be summed, `several_n` and `several_phi` for spectra at
 more than one N or φ."""

@@ -20,7 +20,7 @@ BINNED = ("counts", "binned_averages")
 
 @dataclass(frozen=True)
 class SpectrumChoices:
-    """How a spectrum is computed; "auto" takes the cheapest method that delivers what is asked.
+    """How a spectrum is computed; "auto" takes the cheapest method that delivers what is requested.
 
     `bin_density` is a factor on the numbers of A's linear bins. Of a bin with more modes than
     `modes_per_bin` the participation ratio is sampled on so many, and psi^R is counted in

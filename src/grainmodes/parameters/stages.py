@@ -13,7 +13,7 @@ A stage takes a block of samples and returns a block of samples. From its entry 
 | what it costs          | `cost/work.py`, with the growth law of its name in `cost/costs.yaml`  |
 
 To add an observable: its function in `grainmodes.stages`, its entry here, its variables in
-`grainmodes.dataset`.
+`grainmodes.dataset`; then `make handbook`.
 """
 
 from __future__ import annotations

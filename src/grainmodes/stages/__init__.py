@@ -4,8 +4,8 @@
 
 No function here touches a file or knows a path, but for the checkpoints of long samples. A block
 says what made it: the parameters (attribute `config`), the version of the code, and the sentence of
-every sample that failed. The table of all stages is `grainmodes.parameters.stages`; this room reads
-it nowhere, so that a new entry makes no stage again.
+every sample that failed. The table of all stages is `grainmodes.parameters.stages`. Only `point`,
+which computes them all, reads it here, so that a new entry makes no old result again.
 """
 
 from __future__ import annotations

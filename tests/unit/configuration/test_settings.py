@@ -11,7 +11,11 @@ from scenes import scene_of_grids, scene_with
 
 SPECTRA = {"spectrum", "spectrum_rattlers", "spectrum_hessian"}
 SHEARED = {"shear", "event_detail", "complex_pairs"}
-STAGES = [*TABLE, "ensemble"]
+STAGES = (
+    *("compress", "equilibrate", "rigidity", "step_strain", "fields", "claim_diagnostics"),
+    *("shear", "event_detail", "complex_pairs", "release", "law_comparison", "ensemble"),
+    *sorted(SPECTRA),
+)
 DEPENDENCE = {
     "protocol.compression.phi_step": (5e-5, {"compress", "equilibrate", "ensemble"}),
     "protocol.compression.large_diameter": (1.4, {"compress", "equilibrate", "ensemble"}),

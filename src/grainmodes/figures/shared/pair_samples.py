@@ -14,7 +14,7 @@ from grainmodes.figures.shared.selection import Options, largest_or, smallest_or
 SAMPLE = columns.POINT | columns.SEED
 
 EIGENVALUE_UNIT = "1/t_0^2"
-EIGENVALUE_UNIT_LABEL = r"$k_N d^{1/2} / m$"
+EIGENVALUE_UNIT_LABEL = r"$t_0^{-2}$"
 
 EIGENVALUES = {
     "real_1": (EIGENVALUE_UNIT, "real part of the first eigenvalue of J / M"),
