@@ -39,13 +39,16 @@ def write_ensemble(point_paths: list[str | Path], out_path: str | Path, config: 
     Args:
         point_paths: files of `gather_point`, in any order.
         out_path: netCDF file to write.
-        config: the study's configuration, kept as JSON in the attribute `config`.
+        config: the study's configuration, kept as JSON in the attribute `config`; where it states
+            no contact law, that of the points is kept.
 
     Raises:
         BlockError: no point is given, a file is not a point, or a point occurs twice.
         OSError: the file cannot be written; an older file of this name stays as it was.
     """
     paths = _in_grid_order(point_paths)
+    law = laws_of(read_block(paths[0]).mapping("config"))
+    config = ({"contact_law": law._asdict()} if law.normal else {}) | config
     layout = _layout(paths)
     with new_file(out_path) as file:
         _define(file, layout, laws_of(config))

@@ -9,8 +9,14 @@ import xarray as xr
 from numpy.testing import assert_allclose, assert_array_equal
 
 import synthetic
-from grainmodes.dataset.files import BlockError, read_block, write_block
-from grainmodes.ensemble import gather_point, merge_blocks, open_ensemble, write_ensemble
+from grainmodes.dataset.files import Block, BlockError, read_block, write_block
+from grainmodes.ensemble import (
+    gather_point,
+    merge_blocks,
+    normal_law,
+    open_ensemble,
+    write_ensemble,
+)
 from grainmodes.ensemble.averages import averages
 from grainmodes.ensemble.spectra import spectrum
 
@@ -284,3 +290,14 @@ def test_gather_point_reads_files(tmp_path):
     gathered = gather_point(paths)
     assert gathered.attributes["config"]["spectrum"] == {"force_tolerance": 1e-14}
     assert gathered.variables["eigenvalue"].shape == (2, 48)
+
+
+def test_without_a_scene_the_law_of_the_points_gives_the_units(tmp_path):
+    path = synthetic.point(tmp_path, 16, 0.86, 1.0, 2)
+    made = read_block(path)
+    config = {"rigidity": {"law": {"normal": "harmonic", "tangential": "elastic"}}}
+    write_block(path, Block(made.variables, made.attributes | {"config": config}))
+    write_ensemble([path], tmp_path / "ensemble.nc", {})
+    with open_ensemble(tmp_path / "ensemble.nc") as opened:
+        assert opened["g"].attrs["units"] == "k_N"
+        assert normal_law(opened) == "harmonic"
