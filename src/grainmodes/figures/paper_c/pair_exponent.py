@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.ensemble.exceptional import PairSample, pair_samples
 from grainmodes.figures.shared import appearance, labels
-from grainmodes.figures.shared.pair_samples import EIGENVALUE_UNIT, EIGENVALUE_UNIT_LABEL, SAMPLE
+from grainmodes.figures.shared.pair_samples import EIGENVALUE_UNIT, SAMPLE
 from grainmodes.figures.shared.selection import Options
 
 COLUMNS = SAMPLE | {
@@ -68,7 +68,7 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
         _panel(axes, table[(table["birth"] == birth) & (table["pair"] == 0)])
         labels.name_panel(axes, index, name)
         axes.set(xlabel=r"$|\gamma - \gamma_c|$")
-    panels[0].set(ylabel=rf"$|\lambda_1 - \lambda_2|$ / ({EIGENVALUE_UNIT_LABEL})")
+    panels[0].set(ylabel=r"$|\lambda_1 - \lambda_2|\,t_0^2$")
     panels[0].legend(loc="lower right")
 
 

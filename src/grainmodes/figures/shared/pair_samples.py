@@ -14,7 +14,6 @@ from grainmodes.figures.shared.selection import Options, largest_or, smallest_or
 SAMPLE = columns.POINT | columns.SEED
 
 EIGENVALUE_UNIT = "1/t_0^2"
-EIGENVALUE_UNIT_LABEL = r"$t_0^{-2}$"
 
 EIGENVALUES = {
     "real_1": (EIGENVALUE_UNIT, "real part of the first eigenvalue of J / M"),
@@ -74,8 +73,8 @@ def draw_eigenvalues(real: Axes, imaginary: Axes, path: pd.DataFrame) -> None:
         style = {"color": colour, "markersize": 2.2, "lw": 0.8}
         real.plot(path["strain"], path[column], "o-", **style)
         imaginary.plot(path["strain"], sign * path["imaginary"], "o-", **style)
-    real.set(ylabel=rf"$\mathrm{{Re}}\,\lambda$ / ({EIGENVALUE_UNIT_LABEL})")
-    imaginary.set(ylabel=rf"$\mathrm{{Im}}\,\lambda$ / ({EIGENVALUE_UNIT_LABEL})")
+    real.set(ylabel=r"$\mathrm{Re}\,\lambda\,t_0^2$")
+    imaginary.set(ylabel=r"$\mathrm{Im}\,\lambda\,t_0^2$")
     for axes in (real, imaginary):
         mark_ends(axes, path)
 
