@@ -10,7 +10,8 @@ from pathlib import Path
 from grainmodes.configuration import ConfigurationError, check_point, stage_settings
 from grainmodes.dataset.files import Block, BlockError, read_block, write_block
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.stages import STAGES, Stage
+from grainmodes.parameters.stage import Stage
+from grainmodes.parameters.stages import STAGES
 from grainmodes.stages import load
 
 

@@ -10,7 +10,8 @@ from types import MappingProxyType
 from grainmodes.parameters.fields import MOST_FOR_ALL_MODES
 from grainmodes.parameters.figures import FIGURES
 from grainmodes.parameters.grid import Point
-from grainmodes.parameters.stages import Observables, requested, responses
+from grainmodes.parameters.stage import Observables
+from grainmodes.parameters.stages import requested, responses
 
 
 def offered(observables: Observables) -> set[str]:

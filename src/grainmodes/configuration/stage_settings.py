@@ -17,7 +17,7 @@ from grainmodes.configuration.mistakes import ConfigurationError
 from grainmodes.configuration.schema import complete, mistakes, point_rule, settings_schema
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.protocol import Protocol
-from grainmodes.parameters.stages import Observables
+from grainmodes.parameters.stage import Observables
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,8 @@ from grainmodes.ensemble.point import merge_blocks
 from grainmodes.parameters.grid import checkpoints_up_to
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.protocol import Protocol
-from grainmodes.parameters.stages import STAGES, Observables, requested
+from grainmodes.parameters.stage import Observables
+from grainmodes.parameters.stages import STAGES, requested
 from grainmodes.stages import load
 from grainmodes.stages.compression import compress_block, packing_block
 

@@ -8,7 +8,8 @@ from grainmodes.cli.arguments import options
 from grainmodes.cli.arguments.options import Commands
 from grainmodes.parameters.law import NORMAL_LAWS, TANGENTIAL_LAWS
 from grainmodes.parameters.spectra import SPECTRA
-from grainmodes.parameters.stages import STAGES, Stage, responses
+from grainmodes.parameters.stage import Stage
+from grainmodes.parameters.stages import STAGES, responses
 
 
 def define(commands: Commands) -> None:
