@@ -7,7 +7,7 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 from grainmodes.configuration import ConfigurationError, scene_from
-from grainmodes.parameters.figures import FIGURES
+from grainmodes.parameters.figures import FIGURES, FORMS
 from grainmodes.parameters.grid import (
     CHECKPOINT_SPACING,
     LOWEST_CHECKPOINT,
@@ -38,7 +38,6 @@ RESPONSE = "n~{n}/phi~{phi}/kt~{kt}/seeds~{seeds}.nc"
 POINT = "n~{n}/phi~{phi}/kt~{kt}.nc"
 AT_POINT = "n = {wildcards.n}, phi = {wildcards.phi}, k_T = {wildcards.kt}"
 AT = f"{AT_POINT}, seeds {{wildcards.seeds}}"
-FORMS = ["png", "pdf", "csv"]
 NUMBER = r"\d+(\.\d+)?(e[+-]?\d+)?"
 
 

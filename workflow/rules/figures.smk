@@ -1,4 +1,4 @@
-# The ensemble, and files of single samples -> pictures, and the plotted numbers beside them.
+# The ensemble, and files of single samples -> pictures, with plotted numbers and caption beside them.
 
 
 rule film:

@@ -5,12 +5,19 @@
 """
 
 from grainmodes.ensemble.point import gather_point, merge_blocks
-from grainmodes.ensemble.reading import bin_density, configuration, normal_law, open_ensemble
+from grainmodes.ensemble.reading import (
+    bin_density,
+    configuration,
+    contact_law,
+    normal_law,
+    open_ensemble,
+)
 from grainmodes.ensemble.study import write_ensemble
 
 __all__ = [
     "bin_density",
     "configuration",
+    "contact_law",
     "gather_point",
     "merge_blocks",
     "normal_law",

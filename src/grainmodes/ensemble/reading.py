@@ -60,9 +60,14 @@ def configuration(ensemble: xr.Dataset) -> dict:
     return json.loads(ensemble.attrs["config"])
 
 
+def contact_law(ensemble: xr.Dataset) -> ContactLaw:
+    """The contact law of a study, whose k_T is that of each point; A's where none is configured."""
+    return ContactLaw(**configuration(ensemble).get("contact_law", {}))
+
+
 def normal_law(ensemble: xr.Dataset) -> str:
-    """The normal contact law, on which units depend; "hertz" where it is not configured."""
-    return configuration(ensemble).get("contact_law", {}).get("normal", ContactLaw.normal)
+    """The normal contact law, on which units depend."""
+    return contact_law(ensemble).normal
 
 
 def bin_density(ensemble: xr.Dataset) -> float:

@@ -1,4 +1,4 @@
-"""Figures of the papers: each a picture, the same picture as vectors, and the plotted numbers.
+"""Figures of the papers: a picture, the same as vectors, the plotted numbers, and a caption.
 
 | package   | holds                                          |
 | --------- | ---------------------------------------------- |
@@ -12,6 +12,7 @@ The name of a figure in `parameters.figures.FIGURES` is the name of its module, 
     COLUMNS                      column → (unit, meaning), in the order of the CSV file
     table(source, options)       the plotted numbers, a pure function
     draw(figure, table)          the picture of these numbers and of nothing else
+    caption(table)               what is drawn and what to look at: `shared.captions.Caption`
 
 The source is the ensemble, or a list of blocks: the files of single samples.
 
@@ -29,11 +30,11 @@ import matplotlib.style
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from grainmodes.ensemble import open_ensemble
-from grainmodes.figures.shared.labels import say_empty
-from grainmodes.figures.shared.sample_files import read_samples
+from grainmodes.ensemble import contact_law, open_ensemble
+from grainmodes.figures.shared import captions, labels
+from grainmodes.figures.shared.sample_files import law_of, read_samples
 from grainmodes.figures.shared.selection import Options
-from grainmodes.parameters.figures import FIGURES
+from grainmodes.parameters.figures import FIGURES, FORMS
 from grainmodes.runtime.atomic import replaced
 
 STYLE = Path(__file__).with_name("grainmodes.mplstyle")
@@ -43,7 +44,7 @@ PDF_DOTS_PER_INCH = 450
 
 
 def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options: dict) -> None:
-    """Write `out_stem`.png, .pdf and .csv: all three or none.
+    """Write `out_stem`.png, .pdf, .csv and the caption .txt: all four or none.
 
     Args:
         name: a key of `parameters.figures.FIGURES`.
@@ -61,14 +62,19 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
     module = import_module(f"grainmodes.figures.{FIGURES[name].room}.{name}")
     with _opened(name, data) as source:
         table = module.table(source, Options.read(name, options))
+        law = law_of(source[0]) if isinstance(source, list) else contact_law(source)
+    title = FIGURES[name].title
     with matplotlib.style.context(STYLE):
         figure = Figure()
         FigureCanvasAgg(figure)
         if table.empty:
-            say_empty(figure)
+            labels.say_empty(figure)
+            caption = captions.in_paragraphs(f"{title}.", f"{labels.EMPTY}.")
         else:
             module.draw(figure, table)
-        _write(Path(out_stem), figure, table, _header(name, module.COLUMNS))
+            caption = captions.caption_text(title, module.caption(table), table, law)
+        numbers = _header(title, module.COLUMNS) + table.to_csv(index=False)
+        _write(Path(out_stem), figure, numbers, caption)
 
 
 @contextmanager
@@ -82,15 +88,15 @@ def _opened(name: str, data: str | Path | list[Path]) -> Iterator:
             yield ensemble
 
 
-def _header(name: str, columns: dict[str, tuple[str, str]]) -> str:
-    lines = [FIGURES[name].title]
-    lines += [f"{column} [{unit}]: {meaning}" for column, (unit, meaning) in columns.items()]
+def _header(title: str, columns: dict[str, tuple[str, str]]) -> str:
+    lines = [title, *(f"{name} [{unit}]: {meaning}" for name, (unit, meaning) in columns.items())]
     return "".join(f"# {line}\n" for line in lines)
 
 
-def _write(stem: Path, figure: Figure, table, header: str) -> None:
-    png, pdf, csv = (stem.with_name(stem.name + suffix) for suffix in (".png", ".pdf", ".csv"))
-    with replaced(png) as png, replaced(pdf) as pdf, replaced(csv) as csv:
+def _write(stem: Path, figure: Figure, numbers: str, caption: str) -> None:
+    png, pdf, csv, txt = (stem.with_name(f"{stem.name}.{form}") for form in FORMS)
+    with replaced(png) as png, replaced(pdf) as pdf, replaced(csv) as csv, replaced(txt) as txt:
         figure.savefig(png, format="png", dpi=DOTS_PER_INCH, metadata={"Software": None})
         figure.savefig(pdf, format="pdf", dpi=PDF_DOTS_PER_INCH, metadata={"CreationDate": None})
-        csv.write_text(header + table.to_csv(index=False), encoding="utf-8")
+        csv.write_text(numbers, encoding="utf-8")
+        txt.write_text(caption, encoding="utf-8")

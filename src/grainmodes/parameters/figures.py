@@ -20,6 +20,9 @@ class Figure:
     source: str = "ensemble"
 
 
+FORMS = ("png", "pdf", "csv", "txt")
+"""Suffixes of the files of a figure: picture, vectors, plotted numbers, caption."""
+
 FIGURES = {
     "g_phi": Figure("paper_a", "Rigidity against area fraction (paper A, Fig. 4)", ("rigidity",)),
     "g_kt": Figure(

@@ -1,9 +1,9 @@
-"""The three files of a figure, and what is refused before there is any."""
+"""The four files of a figure, and what is refused before there is any."""
 
 import time
+from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
 
 import synthetic
@@ -18,18 +18,18 @@ OF_ENSEMBLES = [name for name, figure in FIGURES.items() if figure.source == "en
 
 @pytest.mark.usefixtures("without_layout")
 @pytest.mark.parametrize("name", OF_ENSEMBLES)
-def test_a_figure_is_a_picture_a_vector_picture_and_its_numbers(name, whole, tmp_path):
+def test_a_figure_is_two_pictures_its_numbers_and_a_caption(name, whole, tmp_path):
     draw(name, whole, tmp_path / name, {})
     numbers = numbers_of(tmp_path, name)
     assert len(numbers)
-    assert len(list(tmp_path.iterdir())) == 3
+    assert len(list(tmp_path.iterdir())) == 4
 
 
 def test_the_same_ensemble_gives_the_same_bytes(path, tmp_path):
     for run in ("first", "second"):
         draw("g_phi", path, tmp_path / run, {})
         time.sleep(1.1)
-    for suffix in (".png", ".pdf", ".csv"):
+    for suffix in (".png", ".pdf", ".csv", ".txt"):
         first, second = (tmp_path / f"{run}{suffix}" for run in ("first", "second"))
         assert first.read_bytes() == second.read_bytes()
 
@@ -101,7 +101,7 @@ def test_a_figure_that_fails_half_way_leaves_the_old_one(path, tmp_path, monkeyp
     def no_space(*_, **__):
         raise OSError("no space left on device")
 
-    monkeypatch.setattr(pd.DataFrame, "to_csv", no_space)
+    monkeypatch.setattr(Path, "write_text", no_space)
     with pytest.raises(OSError, match="no space"):
         draw("g_phi", path, tmp_path / "figure", {"kt": (1.0,)})
     assert {entry.name: entry.read_bytes() for entry in tmp_path.iterdir()} == before

@@ -56,7 +56,7 @@ def _figure(commands: Commands) -> None:
     )
     _shown(command)
     command.add_argument("--bin-density", type=float, help="factor on the numbers of linear bins")
-    options.output(command, "path without suffix, to which .png, .pdf and .csv are appended")
+    options.output(command, "path without suffix, to which .png, .pdf, .csv and .txt are appended")
 
 
 def _film(commands: Commands) -> None:

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import step_strain_maps
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.grain_maps import Scale
 from grainmodes.figures.shared.grain_rows import field_columns
 from grainmodes.figures.shared.sample_files import jammed_at_point
@@ -38,6 +39,19 @@ def table(fields: list[Block], options: Options) -> pd.DataFrame:
     simulated = VARIABLES["nonaffine"]
     samples = jammed_at_point(fields, options, "affine_fields", simulated, PAPER_N)
     return step_strain_maps.step_strain_rows(samples, options, VARIABLES, COLUMNS)
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Displacements of every grain of one sample in a simulated step strain, per unit strain, "
+        "A (10) to (13): (a) the affine part, which the step alone makes, (b) the non-affine "
+        "part, which the relaxation adds. Arrows: displacements, on a scale of their own in each "
+        "map, with the size of one arrow above it. Colours: rotations ℓ = dθ/2. An empty circle "
+        "is a grain that carries no load.",
+        "the vortices and rotations of (b); in (a) nothing turns, and displacements grow with y "
+        "alone.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.figures.shared import appearance, spectral_rows
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.selection import Options, choose_panels
 from grainmodes.figures.shared.spectral_panels import draw_density_panels
 from grainmodes.figures.shared.spectral_points import choose_density_points
@@ -27,6 +28,16 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     chosen = choose_density_points(ensemble, options)
     points = chosen.at(choose_panels(options.kt, chosen.kt))
     return spectral_rows.bin_rows(ensemble, options, points)[list(COLUMNS)]
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Density of states D(ω), A (23), against ω t_0, double logarithmic, a panel per k_T/k_N. "
+        "Symbols: means over the samples, bars: standard errors.",
+        "the rotational band, which ends at about ω_R t_0 = (k_T/k_N)^(1/2), and its distance to "
+        "the translational band, which does not depend on k_T at weak friction.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

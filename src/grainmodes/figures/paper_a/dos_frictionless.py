@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.ensemble.spectra import points_with
 from grainmodes.figures.shared import appearance, labels, spectral_rows
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.selection import Options, choose_weak, positive_kts
 from grainmodes.figures.shared.spectral_panels import draw_kinds, one_density_panel
 from grainmodes.figures.shared.spectral_points import SPECTRUM_VARIABLES, choose_points
@@ -44,6 +45,17 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     kt = choose_weak(options.one_kt(), positive_kts(kts, "dos_frictionless"))
     kinds = {"frictional": ((n, phi, kt), ""), "frictionless": ((n, phi, 0.0), "")}
     return spectral_rows.compare_spectra(ensemble, options, kinds)[list(COLUMNS)]
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Density of states D(ω) with weak friction (red filled circles) and without friction "
+        "(blue open triangles), in the same bins and both divided by 3N. Grains without friction "
+        "have no rotations. Double logarithmic; bars: standard errors.",
+        "the translational band, which is the same for both, and the rotational band, which only "
+        "grains with friction have.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.ensemble.spectra import binned_spectrum, points_with, spectrum
 from grainmodes.figures.shared import appearance, spectral_rows
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.selection import Options, choose_panels, positive_kts
 from grainmodes.figures.shared.spectral_panels import draw_density_kinds
 from grainmodes.figures.shared.spectral_points import (
@@ -60,6 +61,17 @@ def _rows_at(ensemble, point: Coordinates) -> pd.DataFrame:
     bins["jacobian"] = spectrum(ensemble, *point).in_bins(bins["hessian"].edges)
     return spectral_rows.stack(
         [spectral_rows.rows_of_bins(modes, point, kind) for kind, modes in bins.items()]
+    )
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Density of states of the Jacobian (blue filled circles) and of the effective Hessian of "
+        "A's Appendix H, in the same bins, a panel per k_T/k_N: red open squares with the tangent "
+        "stiffnesses of the contact law, grey triangles with the constants k_N and k_T that A "
+        "(H2) prints. Double logarithmic; bars: standard errors.",
+        "whether squares surround circles everywhere, and how far the triangles lie from both.",
     )
 
 

@@ -9,6 +9,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from grainmodes.figures.shared import labels, spectral_rows
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.selection import Options
 from grainmodes.figures.shared.spectral_panels import draw_density_curves
 from grainmodes.figures.shared.spectral_points import weak_points_along
@@ -25,6 +26,16 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     """
     points = weak_points_along("phi", ensemble, options, "dos_phi")
     return spectral_rows.bin_rows(ensemble, options, points)[list(COLUMNS)]
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Density of states D(ω) at one weak k_T/k_N, a colour per area fraction φ. Double "
+        "logarithmic; bars: standard errors. A line ends where a bin has no modes.",
+        "towards jamming the rotational band moves to lower ω, and the plateau of the "
+        "translational band becomes longer.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.ensemble.spectra import points_with
 from grainmodes.figures.shared import appearance, spectral_rows
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.selection import (
     PAPER_RATTLER_KTS,
     Options,
@@ -46,6 +47,17 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         kinds = {"with": (point, "_rattlers"), "without": (point, "")}
         parts.append(spectral_rows.compare_spectra(ensemble, options, kinds))
     return spectral_rows.stack(parts)[list(COLUMNS)]
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Density of states without rattlers (blue filled triangles) and with them (red open "
+        "circles), in the same bins, a panel per k_T/k_N. A rattler has at most Z_Th contacts; "
+        "rattlers are removed until none is left. Double logarithmic; bars: standard errors.",
+        "which modes only the spectrum with rattlers has, and whether modes between the bands "
+        "remain without them.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -10,6 +10,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from grainmodes.figures.shared import appearance, labels, spectral_rows
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.selection import Options, choose_curves, positive_kts
 from grainmodes.figures.shared.spectral_points import choose_density_points
 
@@ -43,6 +44,16 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     return rows[rows["scaled_omega"].between(*SCALED_RANGE)][list(COLUMNS)]
 
 
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Density of states scaled by ω_R = (k_T/k_N)^(1/2)/t_0: ω_R D against ω/ω_R, double "
+        "logarithmic, a colour per k_T/k_N; small k_T lie on top. Bars: standard errors.",
+        "whether the curves of k_T/k_N ≤ 10⁻² coincide for 0.1 < ω/ω_R < 1, and where the peak "
+        "lies.",
+    )
+
+
 def draw(figure: Figure, table: pd.DataFrame) -> None:
     """Draw all curves in one panel."""
     axes = figure.subplots()
@@ -51,7 +62,7 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
         bins = filled[filled["kt"] == kt]
         curve = (bins[f"scaled_{name}"] for name in ("omega", "density", "density_standard_error"))
         appearance.draw_cloud(axes, *curve, colour, marker, zorder=3 - kt / 100)
-        appearance.add_to_legend(axes, f"${labels.power(kt)}$", colour, marker)
+        appearance.add_to_legend(axes, f"${labels.ratio(kt)}$", colour, marker)
     limits = appearance.logarithmic_limits(filled["scaled_density"])
     axes.set(xscale="log", yscale="log", xlim=SCALED_RANGE, ylim=limits)
     axes.set(xlabel=r"$\omega / \omega_R$", ylabel=r"$\omega_R D(\omega / \omega_R)$")

@@ -19,6 +19,7 @@ from matplotlib.quiver import Quiver
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import labels
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.grain_maps import (
     Scale,
     add_colour_bar,
@@ -79,6 +80,18 @@ def _rows_of_modes(block: Block) -> Iterator[pd.DataFrame]:
         )
 
 
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Eigenvectors of the Jacobian near three frequencies, a row of maps per k_T/k_N, of one "
+        "sample. Arrows: components (x, y), colours: rotations ℓ, of the eigenvector of norm 1 "
+        "times N^(1/2), all on one scale. Above each map its frequency and its rotational "
+        "fraction ψᴿ. An empty circle is a grain that carries no load.",
+        "(a1), (b1): rotations alone, as in Region I; (a3), (b3): translations; (a2) beside (b2): "
+        "the same frequency, once translations alone and once both.",
+    )
+
+
 def draw(figure: Figure, table: pd.DataFrame) -> None:
     """Draw a row of maps per k_T."""
     kts = sorted(table["kt"].unique())
@@ -89,7 +102,7 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     scale = Scale.from_fields(table, ("mode",), arrow=1.2)
     for letter, kt, panels in zip("abcdefgh", kts, grid, strict=False):
         arrows = _row_of_maps(letter, panels, table[table["kt"] == kt], scale)
-        panels[0].set_ylabel(f"$k_T / k_N = {labels.power(kt)}$\n$y/d$")
+        panels[0].set_ylabel(f"$k_T / k_N = {labels.ratio(kt)}$\n$y/d$")
     add_key(panels[0], arrows, scale, "")
     label = r"rotation $N^{1/2} R^{\ell}_{n,i}$"
     add_colour_bar(figure, list(grid.ravel()), scale, label, orientation="horizontal", aspect=50)

@@ -11,10 +11,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.figures.shared import appearance, labels
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.rigidity_rows import COLUMNS, rigidity_rows
 from grainmodes.figures.shared.selection import Options, choose_curves, positive_kts
 
-__all__ = ["COLUMNS", "draw", "table"]
+__all__ = ["COLUMNS", "caption", "draw", "table"]
 
 KINDS = {"theory": "g", "simulation": "g_simulated"}
 
@@ -29,6 +30,17 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     rows = rigidity_rows(ensemble, KINDS, options.n)
     requested = None if options.phi is None else (options.phi,)
     return rows[rows["phi"].isin(choose_curves(requested, ensemble["phi"].to_numpy(), "phi"))]
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Mean rigidity G against k_T/k_N, a colour per area fraction φ. Symbols: simulated step "
+        "strain, or linear response where the study has no step strain; lines: linear response; "
+        "dashed lines: grains without friction, k_T = 0. Bars: standard errors.",
+        "the plateau at k_T/k_N ≤ 10⁻⁴ and its distance to the dashed line, which is the limit "
+        "k_T → 0; the rise beyond has another shape at every φ.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

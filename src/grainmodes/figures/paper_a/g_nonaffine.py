@@ -12,10 +12,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.figures.shared import appearance, labels
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.rigidity_rows import COLUMNS, rigidity_rows_at_kts
 from grainmodes.figures.shared.selection import Options
 
-__all__ = ["COLUMNS", "draw", "table"]
+__all__ = ["COLUMNS", "caption", "draw", "table"]
 
 KINDS = {"unloaded": "g_nonaffine", "loaded": "g_nonaffine_loaded"}
 LINEAR_RANGE = 0.02
@@ -29,6 +30,17 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         ValueError: the ensemble lacks the requested n or kt.
     """
     return rigidity_rows_at_kts(ensemble, KINDS, options)
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Mean non-affine rigidity G_NA against the area fraction φ, a colour per k_T/k_N. (a) A's "
+        "step strain, which does not load the tangential springs; (b) a step strain that loads "
+        "them, as continuous shear does, where G_NA = −aᵀJ⁺a/L² ≤ 0; its axis is linear up to "
+        "0.02 and logarithmic beyond. Bars: standard errors.",
+        "the sign in (a), which changes with k_T/k_N and not in (b); whether |G_NA| grows with φ.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
@@ -50,5 +62,5 @@ def _panel(axes: Axes, rows: pd.DataFrame) -> None:
         curve = rows[rows["kt"] == kt]
         style = {"fmt": marker + "-", "color": colour}
         axes.errorbar(curve["phi"], curve["rigidity"], curve["standard_error"], **style)
-        appearance.add_to_legend(axes, f"${labels.power(kt)}$", colour, marker)
+        appearance.add_to_legend(axes, f"${labels.ratio(kt)}$", colour, marker)
     axes.set(xlabel=r"$\phi$", ylabel=labels.modulus_label(r"$G_{\rm NA}$", rows))

@@ -10,10 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainmodes.figures.shared import appearance, labels
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.rigidity_rows import COLUMNS, rigidity_rows_at_kts
 from grainmodes.figures.shared.selection import Options
 
-__all__ = ["COLUMNS", "draw", "table"]
+__all__ = ["COLUMNS", "caption", "draw", "table"]
 
 KINDS = {"theory": "g", "simulation": "g_simulated"}
 NOTE = "open symbols: theory, dots: simulation"
@@ -30,6 +31,18 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     return rigidity_rows_at_kts(ensemble, KINDS, options)
 
 
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Mean rigidity G against the area fraction φ, a colour per k_T/k_N. Open symbols: linear "
+        "response, A (39); dots: simulated step strain, A (16), where the study has it. Bars: "
+        "standard errors; a sample that is not jammed counts as G = 0.",
+        "whether every dot lies in the middle of its open symbol, so that theory is simulation; "
+        "whether the curves of k_T/k_N ≤ 10⁻⁴ coincide; and whether G is proportional to φ − φ_c "
+        "at large k_T/k_N.",
+    )
+
+
 def draw(figure: Figure, table: pd.DataFrame) -> None:
     """Draw a curve per k_T."""
     axes = figure.subplots()
@@ -40,7 +53,7 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
         theory, simulation = rows[rows["kind"] == "theory"], rows[rows["kind"] == "simulation"]
         _points(axes, theory, fmt=marker, color=colour, markersize=size, mfc="none", mew=0.6)
         _points(axes, simulation, fmt="o", color=colour, markersize=DOT_SIZE)
-        appearance.add_to_legend(axes, f"${labels.power(kt)}$", colour, marker, mfc="none")
+        appearance.add_to_legend(axes, f"${labels.ratio(kt)}$", colour, marker, mfc="none")
     axes.set(xlabel=r"$\phi$", ylabel=labels.modulus_label("$G$", table))
     axes.legend(title="$k_T / k_N$", loc="best", ncols=2)
     simulated = "simulation" in set(table["kind"])

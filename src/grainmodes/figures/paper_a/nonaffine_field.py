@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import appearance, labels, step_strain_maps
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.grain_maps import Scale
 from grainmodes.figures.shared.grain_rows import COMPONENTS, field_columns
 from grainmodes.figures.shared.sample_files import jammed_at_point
@@ -40,6 +41,19 @@ def table(fields: list[Block], options: Options) -> pd.DataFrame:
     theory = VARIABLES["theory"]
     samples = jammed_at_point(fields, options, "nonaffine_field", theory, PAPER_N)
     return step_strain_maps.step_strain_rows(samples, options, VARIABLES, COLUMNS)
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Non-affine displacements of every grain of one sample per unit strain, by both sides of "
+        "A (38): (a) the sum over the modes of the Jacobian, (b) a simulated step strain; arrows: "
+        "displacements, colours: rotations, both on one scale. (c) All components in the order of "
+        "A (33): x, y and ℓ of the first grain, of the second, and so on; open circles: sum over "
+        "the modes, dots: simulation; below, the absolute difference of the two.",
+        "whether (a) and (b) are one picture, and how many orders of magnitude the difference in "
+        "(c) lies below the field.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.ensemble.spectra import points_with
 from grainmodes.figures.shared import appearance, spectral_rows
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.selection import Options, choose_panels, positive_kts
 from grainmodes.figures.shared.spectral_panels import draw_panels
 from grainmodes.figures.shared.spectral_points import MODE_VARIABLES, choose_points
@@ -29,6 +30,18 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     chosen = choose_points(options, points_with(ensemble, *MODE_VARIABLES))
     kts = choose_panels(options.kt, positive_kts(chosen.kt, "participation"))
     return spectral_rows.bin_rows(ensemble, options, chosen.at(kts))[list(COLUMNS)]
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Translational fraction ψᵀ (red squares) and rotational fraction ψᴿ (blue circles) of the "
+        "modes, A (51) and (52), against ω t_0, a panel per k_T/k_N. Means over the modes of a "
+        "bin; bars: standard errors over the samples. A bin without modes has no symbol, where A "
+        "plots 0.",
+        "Region I, where ψᴿ is 1, below Region II, where ψᵀ is 1; the gap between them at weak "
+        "friction, and how both fractions mix in all modes once k_T is of the order of k_N.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.ensemble.spectra import points_with
 from grainmodes.figures.shared import appearance, spectral_rows
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.selection import (
     PAPER_RATTLER_KTS,
     Options,
@@ -48,6 +49,18 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         for point in chosen.at(choose_panels(options.kt, kts, PAPER_RATTLER_KTS))
     ]
     return spectral_rows.stack(parts)[list(COLUMNS)]
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        f"Participation ratio p(ω) of the modes, A (E2), {table['kind'].iloc[0]} rattlers, against "
+        "ω t_0, double logarithmic, a panel per k_T/k_N. Means over the modes of a bin; bars: "
+        "standard errors over the samples. Dashed line: 1/N, a mode of a single grain. A bin "
+        "without modes has no symbol, where A plots 0.",
+        "modes near the dashed line, below and between the bands, which are localised; the "
+        "rotational band, which moves with (k_T/k_N)^(1/2) and keeps its shape.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

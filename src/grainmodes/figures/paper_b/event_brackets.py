@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import appearance, labels
 from grainmodes.figures.shared.appearance import AFTER, BEFORE
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.event_rows import SAMPLE, critical_strain, identity, sample_with
 from grainmodes.figures.shared.sample_files import joined
@@ -59,6 +60,17 @@ def _rows_of_shears(block: Block) -> Iterator[pd.DataFrame]:
         columns = {name: column[known] for name, column in columns.items()}
         step = {"min_step": sample["bracket_min_step"][shear]}
         yield pd.DataFrame(identity(block) | step | columns)
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "The first plastic event of one sample in closer and closer brackets Δγ_Th: (a) stress "
+        "against the distance to γ_c, the middle of the closest bracket, a colour per Δγ_Th; (b) "
+        "the ends of the bracket, squares before and circles after the event, as distances to γ_c "
+        "against Δγ_Th; lines: ±Δγ_Th.",
+        "whether the ends in (b) close on γ_c in proportion to Δγ_Th.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

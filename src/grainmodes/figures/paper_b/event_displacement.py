@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import event_maps, labels
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.grain_maps import (
     Scale,
     add_colour_bar,
@@ -40,6 +41,16 @@ def table(event_details: list[Block], options: Options) -> pd.DataFrame:
 def _width(block: Block) -> float:
     before, after = (block.variables[f"event_strain_{side}"][0, 0] for side in ("before", "after"))
     return float(after - before)
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Non-affine displacement Δq̊ of every grain in a plastic event, B (52), (53), between the "
+        "states at both ends of its bracket. Arrows: displacements, colours: rotations.",
+        "how far from the grain that moves most the event reaches, and whether the rotations "
+        "around it form four domains of alternating sign.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

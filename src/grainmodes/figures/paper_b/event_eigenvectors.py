@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import event_maps, labels
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.grain_maps import (
     Scale,
@@ -53,6 +54,18 @@ def table(event_details: list[Block], options: Options) -> pd.DataFrame:
 
 def _eigenvalue(side: str) -> Callable[[Block], float]:
     return lambda block: block.variables[f"event_lowest_eigenvalue_{side}"][0, 0]
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Eigenvector of the smallest eigenvalue λ_min of the Jacobian just before (a) and just "
+        "after (b) a plastic event, of one sample. Arrows: components (x, y), colours: rotations, "
+        "of the eigenvector of norm 1 times N^(1/2), both on one scale. An empty circle is a "
+        "grain that carries no load.",
+        "whether the event changes the softest mode, and whether it is extended or sits on few "
+        "grains.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

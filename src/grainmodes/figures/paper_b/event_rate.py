@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import event_maps, step_strain_maps
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.grain_maps import Scale
 from grainmodes.figures.shared.grain_rows import field_columns
 from grainmodes.figures.shared.selection import Options
@@ -39,6 +40,16 @@ def table(event_details: list[Block], options: Options) -> pd.DataFrame:
 
 def _step(block: Block) -> float:
     return block.mapping("config")["rate"]
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Non-affine displacement rate dq̊/dγ of every grain just after a plastic event: (a) "
+        "linear response, B (41), (b) a simulated step. Arrows: displacements, colours: "
+        "rotations, per unit strain and both on one scale.",
+        "whether both maps are one picture.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import AFTER, BEFORE
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.event_rows import SAMPLE, rows_from_variables, sample_with
 from grainmodes.figures.shared.sample_files import joined
@@ -73,6 +74,19 @@ def _with_changes(states: pd.DataFrame) -> pd.DataFrame:
     for column, name in (("eigenvalue_change", "lowest_eigenvalue"), ("g_change", "g")):
         states[column] = np.abs(states[name] - states[name].loc[edge].to_numpy())
     return states
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "States around one plastic event at γ_c, squares before and circles after it: (a) "
+        "smallest eigenvalue λ_min of the Jacobian and (b) rigidity g, whose dots are the slope "
+        "of the stress, against γ − γ_c; the axis is linear within 10⁻¹⁰ and logarithmic beyond. "
+        "(c) Their distance to the values at the edge γ_c− of the event, with a straight line "
+        "(grey) and the square root of a fold (dashed).",
+        "the jump at γ_c, and whether the symbols in (c) follow the straight line rather than the "
+        "dashed one: then the event comes without a precursor.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from grainmodes.ensemble.curves import even_bins
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import ROTATIONAL
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.selection import Options
 from grainmodes.figures.shared.sheared_samples import POINT, curves_at_point
@@ -65,6 +66,16 @@ def _means(kind: str, slopes: np.ndarray, edges: np.ndarray) -> pd.DataFrame:
             "standard_error": means.standard_error,
             "samples": means.samples,
         }
+    )
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Mean rigidity G over the samples against strain γ, in bins of strain. Line: linear "
+        "response; symbols: slope of the simulated stress, steps with a plastic event left out; "
+        "bars: standard errors.",
+        "whether the line runs through the symbols at every strain.",
     )
 
 

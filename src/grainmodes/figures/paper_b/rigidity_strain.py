@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from grainmodes.ensemble.curves import Curve
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import RED, ROTATIONAL
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.selection import Options
 from grainmodes.figures.shared.sheared_samples import (
@@ -68,6 +69,17 @@ def table(ensemble, options: Options) -> pd.DataFrame:
 def _largest_strain(curve: Curve) -> float:
     events = curve.strain[:-1][curve.event]
     return max(SMALL_STRAIN, RANGE_BEYOND_EVENT * events[0]) if len(events) else SMALL_STRAIN
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Rigidity g (a) and smallest eigenvalue λ_min of the Jacobian (b) of one sample against "
+        "strain, from zero to beyond its first plastic event. Open symbols: linear response; "
+        "dots: slope of the simulated stress, in steps without an event; red lines: events.",
+        "whether dots lie in the open symbols, and whether g and λ_min announce an event or jump "
+        "at it.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from grainmodes.ensemble.reading import variable
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import ROTATIONAL
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.selection import Options
 from grainmodes.figures.shared.sheared_samples import SAMPLE, one_curve
@@ -53,6 +54,16 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     return rows.assign(
         strain=strain[known], bracketed=curve.stress[state], coarse_run=stress[known]
     ).reset_index(drop=True)
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Shear stress against strain of one sample, sheared twice: with every plastic event "
+        "bracketed to Δγ_Th (broad line) and in steps Δγ_in alone (thin line); below, the "
+        "absolute difference of the two.",
+        "the strain up to which the difference stays small, and the events at which the two part.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import RED, ROTATIONAL
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.selection import Options
 from grainmodes.figures.shared.sheared_samples import (
@@ -50,6 +51,17 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         stress=curve.stress,
         stress_theory=np.concatenate([[np.nan], curve.stress[:-1] + curve.predicted_change]),
         event=np.concatenate([[0], curve.event.astype(int)]),
+    )
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Shear stress σ = (σ_xy + σ_yx)/2 against strain γ in one sample: (a) all strains, (b) "
+        "around the largest drop, which is the grey band of (a), (c) the smallest strains. Dots: "
+        "states of the simulation; lines: linear response from every state to the next, B (51); "
+        "short bars at the bottom: plastic events.",
+        "whether each line ends at the next dot, except in an event.",
     )
 
 

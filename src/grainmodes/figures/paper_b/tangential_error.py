@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import BLUE, RED
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.event_rows import SAMPLE, rows_from_variables, sample_with
 from grainmodes.figures.shared.sample_files import joined
 from grainmodes.figures.shared.selection import Options
@@ -51,6 +52,19 @@ def table(event_details: list[Block], options: Options) -> pd.DataFrame:
     variables = {column: f"path_{column}" for column in list(COLUMNS)[len(SAMPLE) :]}
     shown = sample_with("path_count", event_details, options, PAPER_N)
     return joined((rows_from_variables(block, variables) for block in shown), COLUMNS)
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Err = |V·n|/|V|, B (A1), the normal part of the integral V of the tangential velocities "
+        "of a contact, against strain, double logarithmic: largest and median of the contacts; "
+        "dotted: half the median angle by which contacts have turned; dash-dotted: how far |V| is "
+        "from the |s| of this package; dashed: Err of the last step alone; grey: the bound that B "
+        "states.",
+        "the median on the dotted line: Err is half the angle of turning, first order in the "
+        "strain; only a single step lies at the grey line.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -14,9 +14,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from grainmodes.ensemble import normal_law
+from grainmodes.ensemble import contact_law
 from grainmodes.ensemble.law_comparison import comparison_at, points_with_comparison
 from grainmodes.figures.shared import appearance, labels
+from grainmodes.figures.shared.captions import Caption
+from grainmodes.figures.shared.columns import law_values
 from grainmodes.figures.shared.selection import Options
 from grainmodes.figures.shared.sheared_samples import POINT, choose_point
 from grainmodes.statistics import averages
@@ -30,7 +32,7 @@ COLUMNS = POINT | {
     "pairs_sticking": ("1", "the same, springs at their threshold sticking"),
     "rate": ("1/t_0", "largest omega_i of a released state"),
     "growth": ("1/t_0", "growth rate of its simulated motion"),
-    "samples": ("1", "number of samples"),
+    "samples": ("1", "number of samples of a mean"),
 }
 
 LAW_NAMES = {
@@ -62,7 +64,8 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     parts = [_mean_pairs(law, strain, samples) for law, samples in laws.items()]
     parts += [_released_states(law, strain, samples) for law, samples in laws.items()]
     rows = pd.concat([part for part in parts if len(part)], ignore_index=True)
-    return rows.assign(law=normal_law(ensemble), **point).reindex(columns=list(COLUMNS))
+    law = law_values(contact_law(ensemble))
+    return rows.assign(**law, **point).reindex(columns=list(COLUMNS))
 
 
 def _mean_pairs(law: str, strain: np.ndarray, samples: dict[str, np.ndarray]) -> pd.DataFrame:
@@ -87,8 +90,19 @@ def _released_states(law: str, strain: np.ndarray, samples: dict[str, np.ndarray
     released = np.isfinite(samples["growth"])
     rates = {name: samples[name][released] for name in ("rate", "growth")}
     strain = np.broadcast_to(strain, released.shape)[released]
-    return pd.DataFrame(
-        {"kind": "release", "tangential": law, "strain": strain, "samples": 1} | rates
+    return pd.DataFrame({"kind": "release", "tangential": law, "strain": strain} | rates)
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "The same packings sheared under several tangential laws: (a) mean number of complex "
+        "pairs of M⁻¹J against strain, springs at their threshold slipping (lines with standard "
+        "errors) and sticking (dotted); (b) growth rate of released states over ω_i of their "
+        "fastest pair, against ω_i. A colour and a symbol per law; open in (a): springs that keep "
+        "their force. In (b) a value beyond the range lies at its end.",
+        "under which laws complex pairs exist, and under which they grow: 1 in (b) is the growth "
+        "of linear theory, 0 is none.",
     )
 
 

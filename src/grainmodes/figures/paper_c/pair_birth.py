@@ -9,6 +9,9 @@ from __future__ import annotations
 import pandas as pd
 from matplotlib.figure import Figure
 
+from grainmodes.ensemble import contact_law
+from grainmodes.figures.shared.captions import Caption
+from grainmodes.figures.shared.columns import law_values
 from grainmodes.figures.shared.labels import write_sample_caption
 from grainmodes.figures.shared.pair_samples import (
     EIGENVALUES,
@@ -39,7 +42,19 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         return pd.DataFrame(columns=list(COLUMNS))
     path = longest_pair(sample)
     birth = is_pair(path).to_numpy().argmax()
-    return path.iloc[: birth + STATES_AFTER_BIRTH].assign(**sample.coordinates)[list(COLUMNS)]
+    identity = sample.coordinates | law_values(contact_law(ensemble))
+    return path.iloc[: birth + STATES_AFTER_BIRTH].assign(**identity)[list(COLUMNS)]
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Two eigenvalues λ of M⁻¹J of one sample under quasistatic shear: above their real parts, "
+        "below their imaginary parts, against strain γ. Blue and red: the two modes; dashed line: "
+        "where they meet.",
+        "two real eigenvalues approach, meet, and leave as a complex pair: one real part, two "
+        "imaginary parts ±λ_i.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

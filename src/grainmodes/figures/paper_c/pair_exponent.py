@@ -11,8 +11,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from grainmodes.ensemble import contact_law
 from grainmodes.ensemble.exceptional import PairSample, pair_samples
 from grainmodes.figures.shared import appearance, labels
+from grainmodes.figures.shared.captions import Caption
+from grainmodes.figures.shared.columns import law_values
 from grainmodes.figures.shared.pair_samples import EIGENVALUE_UNIT, SAMPLE
 from grainmodes.figures.shared.selection import Options
 
@@ -44,7 +47,8 @@ def table(ensemble, options: Options) -> pd.DataFrame:
     shown = [
         sample for sample in pair_samples(ensemble) if options.n in (None, sample.coordinates["n"])
     ]
-    parts = [_rows(sample) for sample in shown]
+    law = law_values(contact_law(ensemble))
+    parts = [_rows(sample).assign(**law)[list(COLUMNS)] for sample in shown]
     return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=list(COLUMNS))
 
 
@@ -57,7 +61,18 @@ def _rows(sample: PairSample) -> pd.DataFrame:
         pair=(states["discriminant"] < 0.0).astype(int),
         distance=states["distance"].abs(),
         difference=np.sqrt(states["discriminant"].abs()),
-    )[list(COLUMNS)]
+    )
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "|λ1 − λ2| of two eigenvalues of M⁻¹J against the distance |γ − γ_c| to the strain at "
+        "which they meet, double logarithmic, on the side where both are real: (a) births, (b) "
+        "deaths of complex pairs. A line per exceptional point, a colour per number of grains N. "
+        "Black line: slope 1/2 at the height of the median state.",
+        "whether every line has the slope 1/2, at births and at deaths.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
@@ -70,6 +85,8 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
         axes.set(xlabel=r"$|\gamma - \gamma_c|$")
     panels[0].set(ylabel=r"$|\lambda_1 - \lambda_2|\,t_0^2$")
     panels[0].legend(loc="lower right")
+    if len(table):
+        figure.suptitle(", ".join(labels.constants(table, ("phi", "kt"))))
 
 
 def _panel(axes: Axes, rows: pd.DataFrame) -> None:

@@ -12,8 +12,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from grainmodes.ensemble import contact_law
 from grainmodes.ensemble.exceptional import PairSample
 from grainmodes.figures.shared import labels
+from grainmodes.figures.shared.captions import Caption
+from grainmodes.figures.shared.columns import law_values
 from grainmodes.figures.shared.pair_samples import (
     EIGENVALUES,
     FIRST,
@@ -56,12 +59,24 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         clearest = max(few, key=_count_parallel_states)
         parts.append(clearest.products.assign(**clearest.coordinates))
     rows = pd.concat(parts) if parts else pd.DataFrame()
+    rows = rows.assign(**law_values(contact_law(ensemble)))
     return rows.reindex(columns=list(COLUMNS)).reset_index(drop=True)
 
 
 def _count_parallel_states(sample: PairSample) -> int:
     """In how many states the mode is parallel to another one."""
     return int((sample.products["product"] > PARALLEL).sum())
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Scalar products of eigenvectors of M⁻¹J, all of norm 1, against strain. With few grains: "
+        "one mode with every other, red the mode that becomes parallel to it. With many grains: "
+        "the two modes of one pair, from above their scalar product, the real and the imaginary "
+        "parts of their eigenvalues. Dashed lines: birth and death of the pair.",
+        "the scalar product reaches 1 at birth and death, where the two eigenvectors are one.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import AFTER, BEFORE
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.release_rows import (
     END_TIME,
     RUN,
@@ -63,6 +64,17 @@ def _rows(sample: ReleasedSample) -> pd.DataFrame:
     }
     rows = pd.concat([records, pd.DataFrame(grains)], ignore_index=True)
     return rows.assign(end_time=sample.first("end_time"), second_time=sample.first("second_time"))
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Contacts along a release of one sample: (a) mean number of contacts of a grain, (b) "
+        "number of contacts at Coulomb's threshold, against time; dashed line: end of the growth, "
+        "dotted: second instability. (c) Fraction P(z) of the grains with z contacts, squares "
+        "before and circles after the release.",
+        "contacts are lost in the second instability, and P(z) moves to smaller z.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

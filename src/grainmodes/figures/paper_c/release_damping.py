@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import appearance, labels
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.release_rows import (
     RUN,
@@ -52,6 +53,16 @@ def _rows_of_runs(sample: ReleasedSample) -> list[pd.DataFrame]:
         )
         for run in range(len(sample.values("damping")))
     ]
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "One unstable state released under several dampings η_0: (a) mean square displacement M "
+        "and (b) pressure against ω_i t, a colour per η_0; (c) growth rate against η_0, both over "
+        "ω_i: circles, fit to M; crosses, no growth; line, linear theory.",
+        "a damping well below ω_i changes little; one well above it suppresses the instability.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import TRANSLATIONAL
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.release_rows import (
     END_TIME,
     RUN,
@@ -77,6 +78,19 @@ def _fit(sample: ReleasedSample, name: str, time: np.ndarray) -> np.ndarray:
     swing = 1.0 + depth * np.cos(2.0 * frequency * time - phase)
     with np.errstate(over="ignore"):
         return size * np.exp(2.0 * rate * time) * swing
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Mean square displacement M(t) and mean square rotation A(t), C (29), (30), while a "
+        "released complex pair grows: (a), (b) turn by turn, circles from the dynamics, line the "
+        "fitted oscillation that grows; (c), (d) the whole growth, dots from the dynamics, line "
+        "e^(2 ω_i t) of the pair. The numbers above say how far the fitted ω_i and ω_r are from "
+        "those of the pair.",
+        "whether the motion has the frequency and the growth rate of the pair, and at which M the "
+        "growth ends.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

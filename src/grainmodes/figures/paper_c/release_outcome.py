@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import appearance, labels
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.release_rows import (
     END_TIME,
@@ -53,6 +54,17 @@ def table(releases: list[Block], options: Options) -> pd.DataFrame:
         sample.records(QUANTITIES).assign(end_time=sample.first("end_time")) for sample in shown
     )
     return joined(parts, COLUMNS)
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Released states until long after their growth, a colour per sample, named by its ω_i: "
+        "(a) mean square displacement M, (b) pressure, (c) shear stress σ_xy against time. (d) |P "
+        "− P(0)|/P(0) of one sample while it grows, with e^(ω_i t).",
+        "growth, then a plateau, then a second instability after which pressure has risen and "
+        "shear stress has fallen; a small ω_i delays all of it.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

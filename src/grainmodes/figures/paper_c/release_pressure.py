@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import AFTER, BEFORE
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.columns import ENERGY_UNIT, RIGIDITY_UNIT
 from grainmodes.figures.shared.release_rows import (
     RUN,
@@ -91,6 +92,16 @@ def _means_by_contacts(sample: ReleasedSample, side: str) -> pd.DataFrame:
             "count": groups.size(),
         }
     ).reset_index()
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Pressures before (squares) and after (circles) a release of one sample: (a) probability "
+        "density of P_ij = r·f of the contacts, (b) mean pressure P_i of the grains with z "
+        "contacts; bars: standard errors over the grains.",
+        "the longer tail of P_ij after the release, and P_i, which has risen at every z.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

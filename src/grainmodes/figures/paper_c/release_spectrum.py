@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import RED
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.release_rows import (
     END_TIME,
     RUN,
@@ -63,6 +64,17 @@ def _rows(sample: ReleasedSample) -> pd.DataFrame:
     }
     times = {name: sample.first(name) for name in ("end_time", "second_time")}
     return pd.DataFrame(sample.identity() | series | times)
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Complex pairs of M⁻¹J along a release of one sample: (a) imaginary part λ_i of every "
+        "pair, (b) number of pairs and of real eigenvalues below 0, against time. Dashed line: "
+        "end of the growth; dotted: second instability.",
+        "whether the released pair dies when its growth ends, and how many pairs are there after "
+        "the second instability.",
+    )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:

@@ -18,6 +18,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import labels
+from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.grain_maps import (
     MAX_OUTLINED_GRAINS,
     draw_discs,
@@ -44,7 +45,7 @@ START_VARIABLES = ("position", "diameter", "box_length", "strain")
 """Variables of the state that was released."""
 
 COLUMNS = {
-    **{name: RUN[name] for name in ("n", "phi", "kt", "seed", "rate", "frequency")},
+    **{name: meaning for name, meaning in RUN.items() if name != "damping"},
     **{name: GRAINS[name] for name in ("box_length", "strain", "grain", "diameter")},
     "x": ("d", "x of the grain at the start"),
     "y": ("d", "y of the grain at the start"),
@@ -84,6 +85,17 @@ def _rows(sample: ReleasedSample) -> pd.DataFrame:
             "dy": film[:, :, 1].ravel(),
             "factor": one_digit(DRAWN_LENGTH / longest),
         }
+    )
+
+
+def caption(table: pd.DataFrame) -> Caption:
+    """What is drawn, and what to look at."""
+    return Caption(
+        "Trajectories of the grains of one sample whose complex pair is released, while its "
+        "motion grows: large, all grains in their box; beside it, the three that enclose the "
+        "largest areas. Displacements are drawn larger than they are by the factor above the "
+        "figure; time runs from light to dark.",
+        "spirals that open: every grain circles with ω_r while its amplitude grows as exp(ω_i t).",
     )
 
 

@@ -5,7 +5,8 @@
 | `selection`        | the options of a study; which values of the grid a figure shows        |
 | `columns`          | columns of the CSV files that recur                                    |
 | `appearance`       | colours, symbols, legend entries                                       |
-| `labels`           | numbers as formulas, units of axes, titles, captions                   |
+| `labels`           | numbers as formulas, units of axes, titles, lines above pictures       |
+| `captions`         | the text beside every picture                                          |
 | `rigidity_rows`    | mean G at the points of a grid: A, Figs. 4 to 6                        |
 | `spectral_points`  | which points of a grid have spectra to show                            |
 | `spectral_rows`    | D, ψ and p in bins of ω: A, Figs. 8 to 16                              |

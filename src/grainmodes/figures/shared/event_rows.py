@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 
 from grainmodes.dataset.files import Block
-from grainmodes.figures.shared.columns import LAW, POINT, SEED
-from grainmodes.figures.shared.sample_files import at_kt, at_point, normal_law_of, point_of
+from grainmodes.figures.shared.columns import LAW, POINT, SEED, law_values
+from grainmodes.figures.shared.sample_files import at_kt, at_point, law_of, point_of
 from grainmodes.figures.shared.selection import Options
 
 SAMPLE = POINT | LAW | SEED
@@ -36,7 +36,8 @@ def rows_from_variables(block: Block, columns: dict[str, str]) -> pd.DataFrame:
 
 def identity(block: Block) -> dict[str, object]:
     """The values of the columns `SAMPLE`."""
-    return point_of(block) | {"law": normal_law_of(block), "seed": block.variables["seed"][0]}
+    seed = {"seed": block.variables["seed"][0]}
+    return point_of(block) | law_values(law_of(block)) | seed
 
 
 def critical_strain(block: Block) -> float:

@@ -154,8 +154,8 @@ def write_map_caption(figure: Figure, table: pd.DataFrame, note: str) -> None:
     k_T and the size of the step strain are stated where all maps share them.
     """
     parts = labels.constants(table, ("n", "phi"))
-    for column, symbol in (("kt", "k_T / k_N"), ("strain_step", r"\Delta\gamma")):
-        values = table[column].unique() if column in table else []
-        if len(values) == 1:
-            parts.append(rf"${symbol} = {labels.power(values[0])}$")
+    if table["kt"].nunique() == 1:
+        parts += labels.constants(table, ("kt",))
+    if "strain_step" in table:
+        parts.append(rf"$\Delta\gamma = {labels.power(table['strain_step'].iloc[0])}$")
     figure.suptitle(f"{', '.join(parts)}, seed {table['seed'].iloc[0]}\n{note}")

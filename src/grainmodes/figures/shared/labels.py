@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 import math
+import re
+from fractions import Fraction
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 MODULUS_UNIT = {"hertz": r"$(k_N d^{1/2})$", "harmonic": "$k_N$"}
 """Unit of a modulus under each normal contact law."""
+
+EMPTY = "no converged sample to show"
+
+MAX_DENOMINATOR = 99
+"""Largest denominator of a k_T/k_N that is written as a ratio."""
+
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def modulus_label(symbol: str, table) -> str:
@@ -30,6 +39,24 @@ def power(value: float, digits: int | None = None) -> str:
     return rf"10^{{{exponent}}}" if factor == "1" else rf"{factor}\times 10^{{{exponent}}}"
 
 
+def ratio(kt: float) -> str:
+    """k_T/k_N as a formula: a ratio of small integers where it is one that decimals cut off.
+
+    0.2857142857142857 → 2/7, 1e-8 → 10^{-8}, 0.25 → 0.25.
+    """
+    exact = Fraction(kt).limit_denominator(MAX_DENOMINATOR)
+    is_short = math.isclose(float(f"{kt:.4g}"), kt, rel_tol=1e-12)
+    if is_short or not math.isclose(exact, kt, rel_tol=1e-12):
+        return power(kt)
+    return f"{exact.numerator}/{exact.denominator}"
+
+
+def plain(formula: str) -> str:
+    r"""A formula of `power` or `ratio` as text: 3\times 10^{-2} → 3 × 10⁻²."""
+    raised = re.sub(r"\^\{(.+)\}", lambda found: found[1].translate(SUPERSCRIPTS), formula)
+    return raised.replace(r"\times", " ×")
+
+
 def fraction(phi: float) -> str:
     """An area fraction with at least two digits: 0.9 → 0.90, 0.845 → 0.845."""
     return f"{phi:.2f}" if math.isclose(phi, round(phi, 2)) else f"{phi:g}"
@@ -45,13 +72,16 @@ def count_samples(counts) -> str:
 CONSTANTS = {
     "n": lambda n: f"$N = {n}$",
     "phi": lambda phi: rf"$\phi = {fraction(phi)}$",
-    "kt": lambda kt: f"$k_T / k_N = {power(kt)}$",
+    "kt": lambda kt: f"$k_T / k_N = {ratio(kt)}$",
+    "friction_coefficient": lambda mu: rf"$\mu = {mu:g}$",
 }
 """How a caption states a value that all curves of a figure have in common."""
 
 
 def constants(table, names: tuple[str, ...] = ("n", "phi", "kt")) -> list[str]:
-    """These values of the first row of a table, as formulas."""
+    """These values of the first row of a table, as formulas; then Coulomb's μ, if it has one."""
+    if "friction_coefficient" in table and table["friction_coefficient"].notna().any():
+        names = (*names, "friction_coefficient")
     return [CONSTANTS[name](table[name].iloc[0]) for name in names]
 
 
@@ -80,4 +110,4 @@ def name_panel(axes: Axes, index: int, text: str) -> None:
 
 def say_empty(figure: Figure) -> None:
     """Say that the source has no point to show."""
-    figure.text(0.5, 0.5, "no converged sample to show", ha="center", va="center")
+    figure.text(0.5, 0.5, EMPTY, ha="center", va="center")

@@ -11,7 +11,7 @@ from grainmodes.figures.shared import columns
 from grainmodes.figures.shared.appearance import BLUE, RED
 from grainmodes.figures.shared.selection import Options, largest_or, smallest_or
 
-SAMPLE = columns.POINT | columns.SEED
+SAMPLE = columns.POINT | columns.LAW | columns.SEED
 
 EIGENVALUE_UNIT = "1/t_0^2"
 

@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import labels
-from grainmodes.figures.shared.columns import LAW, POINT, SEED
-from grainmodes.figures.shared.sample_files import at_kt, at_point, normal_law_of, point_of
+from grainmodes.figures.shared.columns import LAW, POINT, SEED, law_values
+from grainmodes.figures.shared.sample_files import at_kt, at_point, law_of, point_of
 from grainmodes.figures.shared.selection import Options, smallest_or
 
 PAPER_N = 500
@@ -55,7 +55,7 @@ class ReleasedSample(NamedTuple):
 
     def identity(self, run: int = 0) -> dict[str, object]:
         """The values of the columns `RUN` for one of its runs."""
-        identity = point_of(self.block) | {"law": normal_law_of(self.block), "seed": self.seed}
+        identity = point_of(self.block) | law_values(law_of(self.block)) | {"seed": self.seed}
         pair = {name: float(self.values(f"{name}_linear")) for name in ("rate", "frequency")}
         return identity | pair | {"damping": float(self.values("damping")[run])}
 

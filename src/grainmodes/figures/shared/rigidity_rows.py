@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from grainmodes.ensemble import normal_law
+from grainmodes.ensemble import contact_law
 from grainmodes.ensemble.averages import averages
-from grainmodes.figures.shared.columns import LAW, POINT, RIGIDITY_UNIT
+from grainmodes.figures.shared.columns import LAW, POINT, RIGIDITY_UNIT, law_values
 from grainmodes.figures.shared.selection import Options, choose_curves, largest_or
 
 COLUMNS = {
@@ -46,7 +46,8 @@ def rigidity_rows(ensemble, kinds: dict[str, str], requested_n: int | None) -> p
     present = {kind: name for kind, name in kinds.items() if name in ensemble}
     means = averages(ensemble, list(present.values()) or list(kinds.values()))
     parts = [_rows_of_kind(means, kind, name) for kind, name in present.items()]
-    rows = pd.concat(parts, ignore_index=True).assign(law=normal_law(ensemble))[list(COLUMNS)]
+    law = law_values(contact_law(ensemble))
+    rows = pd.concat(parts, ignore_index=True).assign(**law)[list(COLUMNS)]
     rows = rows[rows["samples"] > 0]
     known = rows["n"] if len(rows) else ensemble["n"]
     sizes, points = np.unique(known.to_numpy(), return_counts=True)

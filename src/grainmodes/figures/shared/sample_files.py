@@ -10,6 +10,7 @@ import pandas as pd
 
 from grainmodes.dataset.files import Block, BlockError, read_block
 from grainmodes.figures.shared.selection import Options, largest_or
+from grainmodes.parameters.law import ContactLaw
 
 CONTENTS = {"fields": "fields", "event_detail": "event details", "release": "releases"}
 """Stage that writes single samples → what its files hold."""
@@ -89,9 +90,9 @@ def point_of(block: Block) -> dict[str, float]:
     return {name: block.attributes[name] for name in ("n", "phi", "kt")}
 
 
-def normal_law_of(block: Block) -> str:
-    """Name of the normal contact law of a block."""
-    return block.mapping("config")["law"]["normal"]
+def law_of(block: Block) -> ContactLaw:
+    """The contact law of a block."""
+    return ContactLaw(**block.mapping("config").get("law", {}))
 
 
 def joined(parts: Iterable[pd.DataFrame], columns: Iterable[str]) -> pd.DataFrame:

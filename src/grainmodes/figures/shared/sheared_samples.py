@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from grainmodes.ensemble import normal_law
+from grainmodes.ensemble import contact_law
 from grainmodes.ensemble.curves import Curve, curves, points_with_curves
 from grainmodes.figures.shared import columns
 from grainmodes.figures.shared.selection import Options, largest_or, smallest_or
@@ -28,7 +28,7 @@ def curves_at_point(ensemble, options: Options) -> tuple[dict, dict[int, Curve]]
     if not points:
         return {}, {}
     point = choose_point(points, options)
-    return {"law": normal_law(ensemble)} | point, curves(ensemble, **point)
+    return columns.law_values(contact_law(ensemble)) | point, curves(ensemble, **point)
 
 
 def choose_point(points: list[tuple[int, float, float]], options: Options) -> dict[str, float]:

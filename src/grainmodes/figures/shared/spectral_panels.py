@@ -51,7 +51,7 @@ def draw_panels(
     panels = _grid(figure, len(kts))
     for index, (axes, kt) in enumerate(zip(panels, kts, strict=True)):
         draw(axes, table[table["kt"] == kt])
-        labels.name_panel(axes, index, f"$k_T / k_N = {labels.power(kt)}$")
+        labels.name_panel(axes, index, f"$k_T / k_N = {labels.ratio(kt)}$")
     for axes in panels:
         _scale_frequencies(axes)
     figure.supxlabel(r"$\omega t_0$", fontsize=10)
