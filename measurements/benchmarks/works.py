@@ -169,5 +169,5 @@ def _packings(n: int, folder: Path, harmonic: bool) -> Path:
         normal = cases.HARMONIC.normal if harmonic else HERTZ
         point = {"stage": "packings", "n": n, "phi": PHI}
         row = packing_row(packing, normal) | {"converged": True}
-        write_block(path, compute_block([0], lambda _: row, {}, point))
+        write_block(path, compute_block([0], lambda _: row, point))
     return path

@@ -48,7 +48,7 @@ def test_a_sample_with_two_grains_at_one_place_fails_alone():
     bad = Block(start.variables | {"fraction": fraction}, start.attributes)
     found = compress_block(16, range(2), 0.8, protocol, "hertz", bad)
     assert found.variables["converged"].tolist() == [0, 1]
-    assert "same place" in found.attributes["failures"]["0"]
+    assert "same place" in found.attributes["failures"]["trajectories"]["0"]
 
 
 def test_a_crystal_has_every_eigenvalue_as_often_as_it_is_counted():

@@ -44,7 +44,9 @@ def test_a_box_that_holds_a_grain_twice_is_refused(n):
 def test_too_few_grains_are_failed_samples(n):
     block = compress_block(n, range(2), 0.7, COARSE, "hertz", None)
     assert not block.variables["converged"].any()
-    assert all("two images" in text for text in block.attributes["failures"].values())
+    assert all(
+        "two images" in text for text in block.attributes["failures"]["trajectories"].values()
+    )
 
 
 @pytest.mark.parametrize("strain", [0.0, 0.5, -0.5])
@@ -94,4 +96,4 @@ def test_a_seed_that_needs_ten_times_the_usual_iterations():
     begun = Block(start.variables, start.attributes | {"config": config})
     block = packing_block(begun, 0.84, hasty, "hertz")
     assert block.variables["converged"].tolist() == [1, 0, 1]
-    assert re.search(r"max\|F\| < .* iterations", block.attributes["failures"]["21"])
+    assert re.search(r"max\|F\| < .* iterations", block.attributes["failures"]["packings"]["21"])

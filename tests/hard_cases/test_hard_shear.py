@@ -14,15 +14,21 @@ from grainmodes.packing.forces import energy, net_force, stress
 from grainmodes.packing.state import Packing, PackingError
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear, StepStrain
+from grainmodes.protocols.shear import strain_step
 from grainmodes.protocols.shear.first_event import accepted_steps
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
-from grainmodes.protocols.shear.strain_step import step_to, strained_affinely
+from grainmodes.protocols.shear.strain_step import (
+    first_equilibrium,
+    step_to,
+    strained_affinely,
+)
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.equilibrium_search import find_equilibrium
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.relaxation.newton import newton
+from grainmodes.relaxation.result import RelaxationResult
 from grainmodes.stages.packing_rows import packing_row
-from grainmodes.stages.rows import compute_block
+from grainmodes.stages.rows import compute_block, loss
 from grainmodes.stages.step_strain import step_strain_block
 
 FRICTION = Interaction.from_law(ContactLaw("harmonic", "elastic", 1.0))
@@ -115,8 +121,25 @@ def test_a_sample_whose_dynamics_breaks_down_is_a_failed_row():
     rows = [
         packing_row(reference(name)[1], Hertz(1.0)) | {"converged": True} for name in MINIMAL[:1]
     ]
-    packings = compute_block(range(1), rows.__getitem__, {}, {"n": 16, "phi": 0.9})
+    packings = compute_block(range(1), rows.__getitem__, {"n": 16, "phi": 0.9})
     step = StepStrain(relaxation="damped", time_step=1.0)
     found = step_strain_block(packings, ContactLaw(kt=1.0), step)
     assert found.variables["converged"].tolist() == [0]
-    assert "take a shorter one" in found.attributes["failures"]["0"]
+    assert "take a shorter one" in found.attributes["failures"]["step_strain"]["0"]
+
+
+def test_a_packing_that_unjams_is_not_rigid_and_did_not_fail(monkeypatch):
+    packing, interaction = reference(MINIMAL[0])[1], Interaction.from_law(ContactLaw(kt=1.0))
+    before = first_equilibrium(packing, interaction, CHOICES)
+    damped = replace(CHOICES, relaxation="damped")
+
+    def lost_after(packing: Packing) -> dict[str, str]:
+        relaxed = RelaxationResult(packing, False, 100, 1e-9)
+        monkeypatch.setattr(strain_step, "_run_dynamics", lambda *arguments: relaxed)
+        with pytest.raises(ArithmeticError) as found:
+            step_to(1e-4, before, damped)
+        return loss({"": found.value})
+
+    assert "zero modes" in lost_after(packing.at(0.5))["not_rigid"]
+    monkeypatch.setattr(strain_step, "find_equilibrium", lambda *arguments: None)
+    assert "no stable equilibrium" in lost_after(packing)["failures"]

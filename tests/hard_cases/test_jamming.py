@@ -100,4 +100,4 @@ def test_below_jamming_nothing_touches(around):
 
 def as_block(packings: list[Packing]):
     rows = [packing_row(packing, Hertz(1.0)) | {"converged": True} for packing in packings]
-    return compute_block(range(len(rows)), rows.__getitem__, {}, {"n": packings[0].n, "phi": 0.833})
+    return compute_block(range(len(rows)), rows.__getitem__, {"n": packings[0].n, "phi": 0.833})

@@ -76,5 +76,5 @@ def complex_pairs_block() -> Block:
     }
     point = {"n": packing.n, "phi": round(packing.phi, 12), "kt": law.kt, "stage": "complex_pairs"}
     return compute_block(
-        range(2), [row, {"converged": True, "unstable_found": 0}].__getitem__, {}, point
+        range(2), [row, {"converged": True, "unstable_found": 0}].__getitem__, point
     )

@@ -138,7 +138,7 @@ class RescaledSystem:
         """A block of one packing."""
         config = {"compression": asdict(self.compression())}
         point = {"n": len(row["diameter"]), "phi": 0.9, "stage": "packings", "config": config}
-        return compute_block([0], lambda number: row | {"converged": True}, {}, point)
+        return compute_block([0], lambda number: row | {"converged": True}, point)
 
     def compression(self) -> Compression:
         """F_Th in these units."""

@@ -41,7 +41,7 @@ def start(tmp_path_factory) -> Path:
     config = {"compression": asdict(protocol), "normal": "hertz"}
     path = tmp_path_factory.mktemp("large") / "checkpoint.nc"
     block = compute_block(
-        [0], lambda _: row, {}, stage_attributes("trajectories", config, n=N, phi=PHI)
+        [0], lambda _: row, stage_attributes("trajectories", config, n=N, phi=PHI)
     )
     write_block(path, block)
     return path

@@ -103,11 +103,13 @@ def point_of(wildcards):
 
 
 def blocks_of_point(wildcards):
-    """Packings and responses of a point, all blocks of seeds."""
-    point = point_of(wildcards)
-    folders = [STAGES[stage].output for stage in scene.responses(*point)]
+    """Packings and responses of a point, all blocks of seeds, and its files of single samples."""
+    point, names = point_of(wildcards), dict(wildcards.items())
+    stages = [STAGES[stage] for stage in scene.responses(*point)]
+    folders = [stage.output for stage in stages if not stage.single_sample]
     files = [f"{STUDY}/packings/{BLOCK}", *(f"{STUDY}/{folder}/{RESPONSE}" for folder in folders)]
-    return expand(files, seeds=scene.blocks_of(*point), **dict(wildcards.items()))
+    single = [f"{STUDY}/{stage.output}/{POINT}" for stage in stages if stage.single_sample]
+    return expand(files, seeds=scene.blocks_of(*point), **names) + expand(single, **names)
 
 
 def block_read_by(stage):

@@ -23,8 +23,12 @@ def main(argv: list[str] | None = None) -> int:
     try:
         _check_output(getattr(arguments, "output", None))
         getattr(import_module(f"grainmodes.cli.{module}"), function)(arguments)
+        sys.stdout.flush()
     except KeyboardInterrupt:
         return 130
+    except BrokenPipeError:
+        # A reader such as `head` has seen enough; Python would flush the rest when it ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except _mistakes() as error:
         if arguments.debug:
             raise

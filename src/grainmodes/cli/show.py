@@ -9,17 +9,17 @@ from collections.abc import Iterable, Iterator, Sequence
 import netCDF4
 import numpy as np
 
-from grainmodes.dataset.files import BlockError
+from grainmodes.dataset.files import BlockError, check_file
+from grainmodes.dataset.lost import KINDS
 
-LAST = ("config", "failures")
+LAST = ("config", *KINDS)
 """Long attributes, which are shown below the variables."""
 
 
 def show(arguments: Namespace) -> None:
-    """Print dimensions, variables, provenance, converged samples and failures of a file."""
+    """Print dimensions, variables, provenance, converged samples and lost samples of a file."""
     path = arguments.file
-    if not path.is_file():
-        raise BlockError(f"{path}: no such file")
+    check_file(path)
     try:
         with netCDF4.Dataset(path) as file:
             lines = [str(path), *_lines(file)]

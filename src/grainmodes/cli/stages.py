@@ -8,7 +8,7 @@ from contextlib import contextmanager, nullcontext
 from pathlib import Path
 
 from grainmodes.configuration import ConfigurationError, check_point, stage_settings
-from grainmodes.dataset.files import Block, BlockError, read_block, write_block
+from grainmodes.dataset.files import Block, BlockError, content_of, read_block, write_block
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.stage import Stage
 from grainmodes.parameters.stages import STAGES
@@ -50,6 +50,8 @@ def response(arguments: Namespace) -> None:
     """A block → the block of a stage of `parameters.stages`."""
     stage = STAGES[arguments.name.replace("-", "_")]
     check_point(kt=arguments.kt)
+    if stage.needs_friction and not arguments.kt > 0.0:
+        raise ConfigurationError(f"--kt: expected a number above 0, got {arguments.kt:g}")
     settings = stage_settings(arguments.settings, arguments.kt)
     keywords = stage.keywords(settings.protocol, settings.observables)
     kinds = STAGES["spectrum"].kinds
@@ -116,9 +118,8 @@ def _with_options(arguments: Namespace) -> dict:
 def _opened(path: Path, stage: Stage) -> Iterator[Block]:
     """The block in a file, if that stage made it; errors about its content name the file."""
     block = read_block(path)
-    found = block.attributes.get("stage", "none")
-    if found != stage.output:
-        raise BlockError(f"{path}: expected {stage.output}, got {found}")
+    if block.attributes.get("stage") != stage.output:
+        raise BlockError(f"{path}: expected {stage.output}, got {content_of(block)}")
     try:
         yield block
     except BlockError as error:

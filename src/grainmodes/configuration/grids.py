@@ -60,8 +60,8 @@ class Grid:
         return point.n in self.n and point.phi in self.phi and point.kt in self.kt
 
     def stages(self, kt: float) -> list[str]:
-        """Names of the stages that a point with this k_T requests and gathers."""
-        return [stage.name for stage in requested(self.observables, kt) if not stage.single_sample]
+        """Names of the stages that a point with this k_T requests."""
+        return [stage.name for stage in requested(self.observables, kt)]
 
 
 TOGETHER = {

@@ -65,7 +65,7 @@ class Scene:
         return seed_blocks(self.grid_at(n, phi, kt).seeds, self.seeds_per_job)
 
     def responses(self, n: int, phi: float, kt: float) -> list[str]:
-        """Names of the stages that a point requests and gathers, beside its packings."""
+        """Names of the stages that a point requests, beside its packings."""
         return self.grid_at(n, phi, kt).stages(kt)
 
     def law_at(self, kt: float) -> ContactLaw:

@@ -87,7 +87,11 @@ def read_table(path: str | Path = COSTS) -> Table:
         content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
         laws = {name: GrowthLaw(**row) for name, row in content["laws"].items()}
         return Table(**content | {"laws": laws})
-    except (yaml.YAMLError, TypeError, KeyError, AttributeError) as error:
+    except KeyError as error:
+        raise ValueError(
+            f"{path}: expected a table of costs such as {COSTS}, got a file without the key {error}"
+        ) from error
+    except (yaml.YAMLError, TypeError, AttributeError) as error:
         reason = " ".join(str(error).split())
         raise ValueError(
             f"{path}: expected a table of costs such as {COSTS}, got another file ({reason})"

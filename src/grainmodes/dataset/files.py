@@ -38,6 +38,25 @@ class Block:
         return dict(json.loads(value) if isinstance(value, str) else value)
 
 
+def content_of(block: Block) -> str:
+    """What a file holds, in the words of a message: the output of a stage, or an ensemble."""
+    if "n" in block.variables:
+        return "an ensemble"
+    return str(block.attributes.get("stage", "a file that names no stage"))
+
+
+def check_file(path: Path) -> None:
+    """Check that there is a file to read.
+
+    Raises:
+        BlockError: there is none, or a folder.
+    """
+    if path.is_dir():
+        raise BlockError(f"{path}: expected a file, got a folder")
+    if not path.is_file():
+        raise BlockError(f"{path}: no such file")
+
+
 def write_block(path: str | Path, block: Block) -> None:
     """Write a block: all of it or nothing.
 
@@ -101,8 +120,7 @@ def read_block(path: str | Path) -> Block:
         BlockError: no such file, not netCDF, truncated, or without the `seed` dimension.
     """
     path = Path(path)
-    if not path.is_file():
-        raise BlockError(f"{path}: no such file")
+    check_file(path)
     try:
         with netCDF4.Dataset(path) as file:
             file.set_auto_mask(False)

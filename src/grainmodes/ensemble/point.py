@@ -6,6 +6,8 @@ or pair of a sample. Coordinates of grains stay in the files of the packings and
 sample is converged if it is converged in every observable of the point. A seed that an observable
 lacks has NaN there (integers: 0), hence also converged = 0. If two observables have a variable of
 the same name, the first in the order of `STAGES` is kept.
+
+Of a stage of single samples, such as `fields`, a point keeps what was lost and how it was made.
 """
 
 from __future__ import annotations
@@ -16,23 +18,38 @@ from pathlib import Path
 import numpy as np
 
 from grainmodes.dataset import VARIABLES
-from grainmodes.dataset.files import Block, BlockError, read_block
+from grainmodes.dataset.files import Block, BlockError, content_of, read_block
+from grainmodes.dataset.lost import KINDS, merge_lost
 from grainmodes.dataset.padding import stack_padded
 from grainmodes.dataset.variable import is_gathered
 from grainmodes.parameters.stages import gathered
 
-STAGES = tuple(gathered())
+STAGES = tuple(stage.output for stage in gathered())
 """Values of the attribute `stage` that a point gathers, the first of which keeps a name."""
+
+SINGLE_SAMPLE_STAGES = {stage.output for stage in gathered() if stage.single_sample}
+"""Those of which it keeps no variables."""
+
+SHARED_SETTINGS = {
+    "normal": "normal contact law",
+    "law": "contact law",
+    "compression": "settings of the compression",
+}
+"""What all stages of a point have in common in their configuration → its words in a message."""
 
 
 def gather_point(paths: list[str | Path]) -> Block:
     """The blocks of one point, read and merged.
 
     Raises:
-        BlockError: a file is not a block, the files belong to different points or parameters, or a
-            seed occurs twice in an observable.
+        BlockError: a file is not a block or is given twice, the files belong to different points or
+            parameters, or a seed occurs twice in an observable.
     """
-    return merge_blocks({str(path): read_block(path) for path in paths})
+    names = [str(path) for path in paths]
+    for name in names:
+        if names.count(name) > 1:
+            raise BlockError(f"{name}: expected every file once, got it {names.count(name)} times")
+    return merge_blocks({name: read_block(name) for name in names})
 
 
 def merge_blocks(blocks: dict[str, Block]) -> Block:
@@ -47,7 +64,9 @@ def merge_blocks(blocks: dict[str, Block]) -> Block:
     stages = _by_stage(blocks)
     seeds = np.unique(np.concatenate([block.variables["seed"] for block in blocks.values()]))
     variables = {"seed": seeds, "converged": np.ones(len(seeds), dtype=np.int8)}
-    for members in stages.values():
+    for stage, members in stages.items():
+        if stage in SINGLE_SAMPLE_STAGES:
+            continue
         aligned = _aligned(members, seeds)
         variables["converged"] &= aligned["converged"]
         for name, rows in aligned.items():
@@ -61,7 +80,7 @@ def _by_stage(blocks: dict[str, Block]) -> dict[str, dict[str, Block]]:
         stage = block.attributes.get("stage")
         if stage not in STAGES:
             raise BlockError(
-                f"{name}: expected stage to be one of {', '.join(STAGES)}, got {stage!r}"
+                f"{name}: expected a block of one of {', '.join(STAGES)}, got {content_of(block)}"
             )
         found[stage][name] = block
     return {stage: _in_seed_order(stage, members) for stage, members in found.items() if members}
@@ -104,14 +123,36 @@ def _together(parts: list[tuple[np.ndarray, np.ndarray]], size: int) -> np.ndarr
 
 def _attributes(blocks: dict[str, Block], stages: dict[str, dict[str, Block]]) -> dict[str, object]:
     versions = {str(block.attributes.get("code_version", "unknown")) for block in blocks.values()}
+    config = {stage: _decoded(_shared("config", part)) for stage, part in stages.items()}
+    _check_settings(blocks)
     return {
         "title": "Samples of one point, all observables",
         "stage": "point",
         **{name: _shared(name, blocks) for name in ("n", "phi", "kt")},
         "code_version": ", ".join(sorted(versions)),
-        "config": {stage: _decoded(_shared("config", part)) for stage, part in stages.items()},
-        "failures": _failures(stages),
+        "config": config,
+        **{kind: merge_lost(block.mapping(kind) for block in blocks.values()) for kind in KINDS},
     }
+
+
+def _check_settings(blocks: dict[str, Block]) -> None:
+    """Check that all blocks were made with the same contact law and the same compression.
+
+    Raises:
+        BlockError: two of them were not.
+    """
+    for name, words in SHARED_SETTINGS.items():
+        made = {
+            path: config[name]
+            for path, config in ((path, block.mapping("config")) for path, block in blocks.items())
+            if name in config
+        }
+        first = next(iter(made), "")
+        for path, value in made.items():
+            if value != made[first]:
+                raise BlockError(
+                    f"{path}: expected the {words} {made[first]} as in {first}, got {value}"
+                )
 
 
 def _shared(attribute: str, blocks: dict[str, Block]) -> object:
@@ -132,13 +173,3 @@ def _shared(attribute: str, blocks: dict[str, Block]) -> object:
 
 def _decoded(text: object) -> object:
     return json.loads(text) if isinstance(text, str) else text
-
-
-def _failures(stages: dict[str, dict[str, Block]]) -> dict[str, str]:
-    """Seed → what failed; a sentence that later observables repeat is kept once."""
-    sentences: dict[str, dict[str, str]] = {}
-    for stage, members in stages.items():
-        for block in members.values():
-            for seed, sentence in _decoded(block.attributes.get("failures", "{}")).items():
-                sentences.setdefault(seed, {}).setdefault(sentence, f"{stage}: {sentence}")
-    return {seed: "; ".join(parts.values()) for seed, parts in sentences.items()}

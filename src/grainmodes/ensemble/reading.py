@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grainmodes.dataset.files import BlockError
+from grainmodes.dataset.files import BlockError, check_file
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import SpectrumChoices
 
@@ -25,8 +25,7 @@ def open_ensemble(path: str | Path) -> xr.Dataset:
     import xarray as xr  # here, because gathering points takes less time than this import
 
     path = Path(path)
-    if not path.is_file():
-        raise BlockError(f"{path}: no such file")
+    check_file(path)
     try:
         ensemble = xr.open_dataset(path, engine="netcdf4")
     except (OSError, RuntimeError, ValueError) as error:

@@ -17,8 +17,10 @@ import netCDF4
 import numpy as np
 
 from grainmodes.dataset import VARIABLES
-from grainmodes.dataset.files import Block, BlockError, new_file, read_block
+from grainmodes.dataset.files import Block, BlockError, content_of, new_file, read_block
+from grainmodes.dataset.lost import KINDS, Lost
 from grainmodes.dataset.units import Laws, laws_of
+from grainmodes.ensemble.lost import sample_name
 
 GRID = ("n", "phi", "kt")
 INTEGER_FILL = -1
@@ -55,7 +57,8 @@ def write_ensemble(point_paths: list[str | Path], out_path: str | Path, config: 
         file.title = "Ensemble of jammed packings: response, spectra and provenance, by sample"
         file.code_version = layout.code_version
         file.config = json.dumps(config, sort_keys=True)
-        file.failures = json.dumps(_fill(file, layout, paths), sort_keys=True)
+        for kind, lost in _fill(file, layout, paths).items():
+            file.setncattr(kind, json.dumps(lost, sort_keys=True))
 
 
 def _in_grid_order(paths: list[str | Path]) -> list[Path]:
@@ -76,9 +79,8 @@ def _points(paths: list[str | Path]) -> Iterator[tuple[Path, Block]]:
     for path in map(Path, paths):
         block = read_block(path)
         if block.attributes.get("stage") != "point":
-            stage = block.attributes.get("stage")
             raise BlockError(
-                f"{path}: expected stage to be 'point', got {stage!r}; gather its blocks first"
+                f"{path}: expected a point, got {content_of(block)}; gather its blocks first"
             )
         yield path, block
 
@@ -139,9 +141,9 @@ def _storage(layout: Layout, dimensions: tuple[str, ...]) -> dict[str, object]:
     return {"chunksizes": chunk, "zlib": True, "complevel": 1, "shuffle": True}
 
 
-def _fill(file: netCDF4.Dataset, layout: Layout, paths: list[Path]) -> dict[str, str]:
-    """Write every point; return "n,phi,kt,seed" → why the sample failed."""
-    failures = {}
+def _fill(file: netCDF4.Dataset, layout: Layout, paths: list[Path]) -> dict[str, Lost]:
+    """Write every point; return attribute → the lost samples, as "n,phi,kt,seed"."""
+    lost: dict[str, Lost] = {kind: {} for kind in KINDS}
     for _, block in _points(paths):
         point = _coordinates(block)
         place = tuple(
@@ -152,9 +154,11 @@ def _fill(file: netCDF4.Dataset, layout: Layout, paths: list[Path]) -> dict[str,
         for name in layout.names:
             if name in block.variables:
                 _fill_rows(file[name], place, rows, block.variables[name])
-        for seed, sentence in json.loads(block.attributes["failures"]).items():
-            failures[",".join(map(str, (*point, seed)))] = sentence
-    return failures
+        for kind in KINDS:
+            for stage, samples in block.mapping(kind).items():
+                entries = lost[kind].setdefault(stage, {})
+                entries |= {sample_name(*point, int(seed)): why for seed, why in samples.items()}
+    return lost
 
 
 def _fill_rows(

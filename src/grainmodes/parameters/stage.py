@@ -30,7 +30,8 @@ class Stage:
         folder: of its files; its name if empty.
         work: how the number of units of its growth law is counted, a key of `cost.work.UNITS`.
         needs_friction: it does not exist at k_T = 0.
-        single_sample: it keeps the grains of the first sample, to be drawn, and is not gathered.
+        single_sample: it keeps the grains of the first sample, to be drawn; a point gathers only
+            why that sample was lost, if it was.
         parallel: processes can share one sample of it.
         resumable: it saves checkpoints of long samples.
     """

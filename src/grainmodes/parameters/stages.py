@@ -162,10 +162,9 @@ def responses() -> list[Stage]:
     return [stage for stage in STAGES.values() if stage.observable]
 
 
-def gathered() -> list[str]:
-    """Attributes `stage` of the blocks that a point gathers, in the order in which names win."""
-    kept = (stage for stage in STAGES.values() if stage.name != "compress")
-    return [stage.output for stage in kept if not stage.single_sample]
+def gathered() -> list[Stage]:
+    """The stages whose blocks a point gathers, in the order in which names win."""
+    return [stage for stage in STAGES.values() if stage.name != "compress"]
 
 
 def requested(observables: Observables, kt: float) -> list[Stage]:

@@ -8,11 +8,11 @@
 | A18  velocity Verlet is right to Δt² and Δt  | one step against 32 short ones         |
 | A19  compressed with friction: complex pairs | frictional compression, then λ of M⁻¹J |
 
-A diagnostic that fails leaves NaN in its place and its sentence among the failures of its seed; the
-row counts as converged all the same. NaN also stands for what does not exist: at k_T = 0 there is
-no velocity Verlet and no compression with friction, and large packings have no dense matrices
-(`MAX_DENSE_GRAINS`, `MAX_COMPRESSED_GRAINS`). A packing that is not jammed has g = 0, and it does
-not jam when it is expanded and compressed again.
+A diagnostic that fails leaves NaN in its place and its sentence among the failures; the row counts
+as converged all the same, so that the sample is not lost for the other observables. NaN also stands
+for what does not exist: at k_T = 0 there is no velocity Verlet and no compression with friction,
+and large packings have no dense matrices (`MAX_DENSE_GRAINS`, `MAX_COMPRESSED_GRAINS`). A packing
+that is not jammed has g = 0, and it does not jam when it is expanded and compressed again.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from grainmodes.response.mode_sum import ModeRigidity
 from grainmodes.response.stability import count_complex_pairs
 from grainmodes.spectrum import packing_spectrum
 from grainmodes.stages.rows import SAMPLE_ERRORS, response_block
-from grainmodes.stages.samples import jammed_packing, seed_of
+from grainmodes.stages.samples import jammed_packing
 
 STRAINS = (1e-6, 1e-5, 1e-4)
 """Δγ of claim A16."""
@@ -69,7 +69,6 @@ def claim_diagnostics_block(
     packings: Block, law: ContactLaw, rattlers: Rattlers, step: StepStrain
 ) -> Block:
     """All diagnostics of every packing; a packing that is not in balance has no numbers."""
-    sentences: dict[str, str] = {}
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, Interaction.from_law(law))
@@ -78,14 +77,11 @@ def claim_diagnostics_block(
             row = diagnostics_row(packing, law, rattlers, step, attempt)
         else:
             row = unjammed_row(packing, law)
-        if attempt.sentences:
-            sentences[str(seed_of(packings, number))] = "; ".join(attempt.sentences)
-        return {"diagnostic_strain": STRAINS, "converged": True} | row
+        failures = {"failures": "; ".join(attempt.sentences)} if attempt.sentences else {}
+        return {"diagnostic_strain": STRAINS, "converged": True} | row | failures
 
     config = {"law": asdict(law), "rattlers": asdict(rattlers), "step_strain": asdict(step)}
-    block = response_block(packings, "claim_diagnostics", config, law, sample)
-    failures = block.attributes["failures"] | sentences
-    return Block(block.variables, block.attributes | {"failures": failures})
+    return response_block(packings, "claim_diagnostics", config, law, sample)
 
 
 def unjammed_row(packing: Packing, law: ContactLaw) -> dict[str, object]:

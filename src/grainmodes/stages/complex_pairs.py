@@ -17,7 +17,7 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.pair_tracking.tracking import PairTracking
 from grainmodes.stages.complex_pair_rows import tracking_row
-from grainmodes.stages.rows import response_block
+from grainmodes.stages.rows import loss, response_block
 from grainmodes.stages.samples import jammed_packing
 
 UNUSED_SHEAR_CHOICES = ("min_step", "lowest_eigenvalue")
@@ -36,13 +36,14 @@ def complex_pairs_block(
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, interaction)
         if not jammed:
-            return {"pair_state_count": 0, "jammed": False, "converged": True}
+            row: dict[str, object] = {"pair_state_count": 0, "unstable_found": False}
+            return row | {"jammed": False, "converged": True}
         tracking = PairTracking.start(packing, interaction, shear, choices)
         try:
             while not tracking.done:
                 tracking.advance()
         except ArithmeticError as error:
-            return tracking_row(tracking) | {"failure": str(error)}
+            return tracking_row(tracking) | loss({"": error})
         return tracking_row(tracking)
 
     used = {

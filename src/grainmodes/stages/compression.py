@@ -53,8 +53,7 @@ def compress_block(
         return trajectory_row(compress_along_grid(before, phi, normal_law, compression))
 
     attributes = stage_attributes("trajectories", config, n=n, phi=phi)
-    failures = {} if start is None else start.mapping("failures")
-    return compute_block(seeds, sample, failures, attributes)
+    return compute_block(seeds, sample, attributes, start)
 
 
 def packing_block(start: Block, phi: float, compression: Compression, normal: str) -> Block:
@@ -78,8 +77,7 @@ def packing_block(start: Block, phi: float, compression: Compression, normal: st
         }
 
     attributes = stage_attributes("packings", config, n=int(start.attributes["n"]), phi=phi)
-    failures = start.mapping("failures")
-    return compute_block(start.variables["seed"], sample, failures, attributes)
+    return compute_block(start.variables["seed"], sample, attributes, start)
 
 
 def _normal_law(name: str) -> NormalLaw:

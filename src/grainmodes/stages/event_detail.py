@@ -36,9 +36,14 @@ from grainmodes.protocols.shear.first_event import (
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.protocols.shear.sheared_state import ShearedState
 from grainmodes.protocols.shear.tangential_path import PathError, TangentialPath
-from grainmodes.stages.rows import response_block
+from grainmodes.stages.rows import loss, response_block
 from grainmodes.stages.samples import first_sample, jammed_packing
-from grainmodes.stages.shear_rows import bracket_ends, on_every_grain, symmetric_shear
+from grainmodes.stages.shear_rows import (
+    bracket_ends,
+    bracket_failures,
+    on_every_grain,
+    symmetric_shear,
+)
 
 
 def event_detail_block(packings: Block, law: ContactLaw, choices: Shear) -> Block:
@@ -55,8 +60,9 @@ def event_detail_block(packings: Block, law: ContactLaw, choices: Shear) -> Bloc
             bracket_first_event(packing, interaction, choices),
             refined_steps(choices),
         )
-        narrowest = brackets[-1]
+        narrowest, lost = brackets[-1], loss(bracket_failures(brackets))
         row |= _brackets(brackets) | _path_errors(packing, interaction, refined[0])
+        row |= {"converged": not lost, **lost}
         if narrowest.event is None or narrowest.after is None:
             return row | _grains(packing)
         return row | _event(narrowest, narrowest.event, narrowest.after, refined[-1])

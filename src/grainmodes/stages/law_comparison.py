@@ -19,7 +19,7 @@ from grainmodes.parameters.law import ELASTIC_LAWS, TANGENTIAL_LAWS, ContactLaw
 from grainmodes.parameters.law_comparison import MAX_GRAINS
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.law_comparison.comparison import ComparedState, LawRun, shear_under_law
-from grainmodes.stages.rows import response_block
+from grainmodes.stages.rows import loss, response_block
 from grainmodes.stages.samples import jammed_packing
 
 
@@ -64,6 +64,5 @@ def comparison_row(runs: Mapping[str, LawRun]) -> dict[str, object]:
     for place, name in enumerate(runs):
         for quantity, column in columns.items():
             row[f"comparison_{quantity}_{name}"] = column[place]
-    failures = [f"{name}: {run.ending}" for name, run in runs.items() if run.ending]
-    row |= {"jammed": True, "converged": not failures}
-    return row | ({"failure": "; ".join(failures)} if failures else {})
+    lost = loss({name: run.failure for name, run in runs.items()})
+    return row | {"jammed": True, "converged": not lost} | lost

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict
 
 from grainmodes.dataset.files import Block, BlockError
+from grainmodes.dataset.lost import KINDS, of_samples
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import max_force_and_torque, mean_contact_force, net_force
 from grainmodes.packing.state import Packing
@@ -40,9 +41,9 @@ def jammed_packing(block: Block, number: int, interaction: Interaction) -> tuple
 def first_sample(block: Block) -> Block:
     """The block of its first sample alone."""
     seed = str(seed_of(block, 0))
-    failures = {key: text for key, text in block.mapping("failures").items() if key == seed}
+    lost = {kind: of_samples(block.mapping(kind), [seed]) for kind in KINDS}
     rows = {name: array[:1] for name, array in block.variables.items()}
-    return Block(rows, block.attributes | {"failures": failures})
+    return Block(rows, block.attributes | lost)
 
 
 def seed_of(block: Block, number: int) -> int:

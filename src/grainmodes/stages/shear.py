@@ -12,9 +12,14 @@ from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.first_event import bracket_first_event
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.stages.long_runs import CheckpointStore, run_to_end
-from grainmodes.stages.rows import response_block
+from grainmodes.stages.rows import loss, response_block
 from grainmodes.stages.samples import jammed_packing, seed_of
-from grainmodes.stages.shear_rows import bracket_ends, coarse_run_row, run_row
+from grainmodes.stages.shear_rows import (
+    bracket_ends,
+    bracket_failures,
+    coarse_run_row,
+    run_row,
+)
 
 
 def shear_block(
@@ -41,12 +46,17 @@ def shear_block(
             return {"curve_count": 0, "jammed": False, "converged": True}
         start, name = QuasistaticRun.from_packing, f"seed-{seed_of(packings, number)}"
         run = run_to_end(partial(start, packing, interaction, choices), checkpoints, name)
-        row = run_row(run) | ({} if run.done else {"failure": run.failure})
+        row = run_row(run)
+        errors: dict[str, Exception | None] = {"": None if run.done else run.failure}
         if coarse_run:
-            coarse = partial(start, packing, interaction, replace(choices, min_step=choices.step))
-            row |= coarse_run_row(run_to_end(coarse, checkpoints, f"{name}-coarse"))
-            row |= bracket_ends(bracket_first_event(packing, interaction, choices))
-        return row
+            begin = partial(start, packing, interaction, replace(choices, min_step=choices.step))
+            coarse = run_to_end(begin, checkpoints, f"{name}-coarse")
+            brackets = bracket_first_event(packing, interaction, choices)
+            row |= coarse_run_row(coarse) | bracket_ends(brackets)
+            errors |= {"coarse run": None if coarse.done else coarse.failure}
+            errors |= bracket_failures(brackets)
+        lost = loss(errors)
+        return row | {"converged": not lost} | lost
 
     config = {"law": asdict(law), "shear": asdict(choices), "coarse_run": coarse_run}
     return response_block(packings, "shear", config, law, sample)

@@ -23,7 +23,7 @@ MAX_PAIR_DOF = 1200
 
 
 def run_row(run: QuasistaticRun) -> dict[str, object]:
-    """Everything recorded along a shear; not converged where it ended before the last strain."""
+    """Everything recorded along a shear."""
     equilibrium = run.state.equilibrium
     packing, interaction = equilibrium.packing, equilibrium.interaction
     return {
@@ -34,7 +34,6 @@ def run_row(run: QuasistaticRun) -> dict[str, object]:
         "last_complex_pairs": _count_pairs(equilibrium),
         **_network_changes(run.network_changes),
         "jammed": True,
-        "converged": run.done,
     }
 
 
@@ -53,6 +52,11 @@ def bracket_ends(brackets: Sequence[Bracket]) -> dict[str, object]:
         "bracket_strain_before": [b.before.strain if b.after else np.nan for b in brackets],
         "bracket_strain_after": [b.after.strain if b.after else np.nan for b in brackets],
     }
+
+
+def bracket_failures(brackets: Sequence[Bracket]) -> dict[str, Exception | None]:
+    """Which brackets found no event because their run ended early → why, for `rows.loss`."""
+    return {f"first event within {b.min_step:.0e}": b.failure for b in brackets if b.failure}
 
 
 def symmetric_shear(tensor: np.ndarray) -> float:

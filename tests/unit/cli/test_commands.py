@@ -1,12 +1,14 @@
 """The command line: light where it can be, one sentence where it cannot go on."""
 
 import json
+import os
 import subprocess
 import sys
 
 import netCDF4
 import pytest
 
+import synthetic
 from grainmodes.cli import main
 from grainmodes.dataset.files import read_block, write_block
 
@@ -253,6 +255,47 @@ def test_showing_tells_failures(tmp_path, capsys):
     text = capsys.readouterr().out
     assert "converged  1 of 2" in text
     assert "1  ran out of iterations" in text
+
+
+def test_showing_a_folder_is_refused(tmp_path, capsys):
+    assert main(["show", str(tmp_path)]) == 1
+    assert f"{tmp_path}: expected a file, got a folder" in capsys.readouterr().err
+
+
+def test_a_reader_that_has_seen_enough_ends_a_command(study):
+    script = "import sys; from grainmodes.cli import main; sys.exit(main(sys.argv[1:]))"
+    command = [sys.executable, "-c", script, "show", str(study / "packings.nc")]
+    read, write = os.pipe()
+    os.close(read)
+    run = subprocess.run(command, stdout=write, stderr=subprocess.PIPE, text=True)
+    os.close(write)
+    assert (run.returncode, run.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("command", ["complex-pairs", "spectrum-hessian"])
+def test_a_stage_that_needs_friction_is_not_run_without(capsys, tmp_path, study, command):
+    words = [command, str(study / "packings.nc"), "--kt", "0", "-o", str(tmp_path / "out.nc")]
+    assert main(words) == 1
+    assert f"{command}: --kt: expected a number above 0, got 0" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_packings_of_another_normal_law_are_refused(capsys, tmp_path, study):
+    words = ["rigidity", str(study / "packings.nc"), "--kt", "1", "-o", str(tmp_path / "g.nc")]
+    assert main([*words, "--settings", json.dumps({"contact_law": {"normal": "harmonic"}})]) == 1
+    sentence = (
+        "packings.nc: contact_law.normal: expected 'hertz', with which these samples were made, "
+        "got 'harmonic'"
+    )
+    assert sentence in capsys.readouterr().err
+
+
+def test_an_ensemble_instead_of_single_samples_is_named(capsys, tmp_path):
+    path = synthetic.ensemble(tmp_path, phis=(0.9,), kts=(1.0,), seeds=1)
+    assert main(["figure", "event_states", str(path), "-o", str(tmp_path / "f")]) == 1
+    assert "expected event details, got an ensemble" in capsys.readouterr().err
+    assert main(["rigidity", str(path), "--kt", "1", "-o", str(tmp_path / "g.nc")]) == 1
+    assert "expected packings, got an ensemble" in capsys.readouterr().err
 
 
 def test_showing_no_netcdf(tmp_path, capsys):

@@ -30,7 +30,7 @@ def test_a_point_gets_what_its_grid_asks_for():
     assert stages_with() == ["rigidity", "step_strain", "spectrum"]
     assert stages_with(step_strain=False) == ["rigidity", "spectrum"]
     assert stages_with(rigidity=False, spectrum="counts") == ["step_strain", "spectrum"]
-    assert stages_with(step_strain=False, spectrum="none", fields=True) == ["rigidity"]
+    assert stages_with(step_strain=False, spectrum="none", fields=True) == ["rigidity", "fields"]
     assert stages_with(rattlers=True, hessian=True, claim_diagnostics=True) == [
         *("rigidity", "step_strain", "spectrum"),
         *("spectrum_rattlers", "spectrum_hessian", "claim_diagnostics"),

@@ -76,6 +76,13 @@ def test_a_mistaken_table_is_one_sentence(capsys, tmp_path, text):
     assert "costs.yaml: expected a table of costs" in line
 
 
+def test_a_table_without_laws_says_what_it_lacks(capsys, tmp_path):
+    (tmp_path / "costs.yaml").write_text("machine: mine")
+    words = ["cost", str(CONFIG / "default.yaml"), "--costs", str(tmp_path / "costs.yaml")]
+    assert main(words) == 1
+    assert "got a file without the key 'laws'" in capsys.readouterr().err
+
+
 def test_there_is_a_core_at_least(capsys):
     assert main(["cost", str(CONFIG / "default.yaml"), "--cores", "0"]) == 1
     assert "--cores: expected a whole number from 1, got 0" in capsys.readouterr().err

@@ -18,6 +18,7 @@ from grainmodes.ensemble import (
     write_ensemble,
 )
 from grainmodes.ensemble.averages import averages
+from grainmodes.ensemble.lost import LostSample, lost_samples
 from grainmodes.ensemble.spectra import spectrum
 
 POINT = {"n": 16, "phi": 0.9, "kt": 1.0}
@@ -101,17 +102,16 @@ def test_a_seed_that_an_observable_lacks_is_not_converged_and_not_dropped():
 
 
 def test_failures_keep_the_observable_in_which_they_began():
+    packings = {"packings": {"1": "no balance"}}
     merged = merge_blocks(
         {
-            "a": block("packings", 0, 2, failures={"1": "no balance"}),
-            "b": block("rigidity", 0, 2, failures={"1": "no balance", "0": "singular"}),
-            "c": block("spectrum", 0, 2, failures={"1": "no balance", "0": "no memory"}),
+            "a": block("packings", 0, 2, failures=packings),
+            "b": block("rigidity", 0, 2, failures=packings | {"rigidity": {"0": "singular"}}),
+            "c": block("spectrum", 0, 2, failures=packings | {"spectrum": {"0": "no memory"}}),
         }
     )
-    assert merged.attributes["failures"] == {
-        "0": "rigidity: singular; spectrum: no memory",
-        "1": "packings: no balance",
-    }
+    expected = {"rigidity": {"0": "singular"}, "spectrum": {"0": "no memory"}}
+    assert merged.attributes["failures"] == packings | expected
 
 
 @pytest.mark.parametrize(
@@ -127,7 +127,7 @@ def test_failures_keep_the_observable_in_which_they_began():
         (
             block("rigidity", 0, 2),
             block("packings", 2, 3, stage="soup"),
-            "expected stage to be one of packings",
+            "expected a block of one of packings, .* got soup",
         ),
     ],
 )
@@ -185,11 +185,17 @@ def test_points_that_the_grid_lacks_are_missing_not_zero(tmp_path):
 
 
 def test_failures_of_an_ensemble_name_point_and_seed(tmp_path):
-    stages = [block("packings", 0, 2), block("rigidity", 0, 2, failures={"1": "singular"})]
+    stages = [
+        block("packings", 0, 2),
+        block("rigidity", 0, 2, failures={"rigidity": {"1": "singular"}}),
+    ]
     write_block(tmp_path / "point.nc", merge_blocks(dict(zip("ab", stages, strict=True))))
     write_ensemble([tmp_path / "point.nc"], tmp_path / "ensemble.nc", {})
     with open_ensemble(tmp_path / "ensemble.nc") as dataset:
-        assert json.loads(dataset.attrs["failures"]) == {"16,0.9,1.0,1": "rigidity: singular"}
+        assert json.loads(dataset.attrs["failures"]) == {"rigidity": {"16,0.9,1.0,1": "singular"}}
+        assert lost_samples(dataset) == [
+            LostSample("failures", "rigidity", 16, 0.9, 1.0, 1, "singular")
+        ]
 
 
 def test_a_failing_point_leaves_no_ensemble_and_keeps_the_old_one(tmp_path):
@@ -301,3 +307,55 @@ def test_without_a_scene_the_law_of_the_points_gives_the_units(tmp_path):
     with open_ensemble(tmp_path / "ensemble.nc") as opened:
         assert opened["g"].attrs["units"] == "k_N"
         assert normal_law(opened) == "harmonic"
+
+
+def test_a_stage_of_single_samples_leaves_its_failures_and_no_numbers():
+    packings = block("packings", 0, 1)
+    failed = {"stage": "fields", "kt": 1.0, "failures": {"fields": {"0": "no mode"}}}
+    variables = {"seed": np.array([0]), "converged": np.array([0]), "residual": np.array([1e-3])}
+    fields = Block(variables, packings.attributes | failed)
+    merged = merge_blocks({"a": block("packings", 0, 2), "b": fields})
+    assert merged.attributes["failures"] == {"fields": {"0": "no mode"}}
+    assert_array_equal(merged.variables["converged"], [1, 1])
+    assert "residual" not in merged.variables
+    assert "fields" in merged.attributes["config"]
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [("law", "contact law"), ("compression", "settings of the compression")],
+)
+def test_stages_of_a_point_share_their_law_and_their_packings(name, words):
+    first, second = (
+        block(stage, 0, 2, config={name: {"kt": 1.0, "normal": normal}})
+        for stage, normal in (("rigidity", "hertz"), ("spectrum", "harmonic"))
+    )
+    with pytest.raises(BlockError, match=f"b: expected the {words} .*hertz.* as in a, got .*harm"):
+        merge_blocks({"a": first, "b": second})
+
+
+def test_a_file_given_twice_is_not_dropped_in_silence(tmp_path):
+    path = tmp_path / "rigidity.nc"
+    write_block(path, block("rigidity", 0, 2))
+    with pytest.raises(BlockError, match=r"rigidity\.nc: expected every file once, got it 2 times"):
+        gather_point([path, path])
+
+
+def test_lost_samples_are_listed_with_stage_place_and_reason(tmp_path):
+    point = synthetic.point(tmp_path, 16, 0.9, 1.0, 2)
+    made = read_block(point)
+    lost = {"failures": {"shear": {"1": "no balance"}}, "not_rigid": {"shear": {"0": "floppy"}}}
+    write_block(point, Block(made.variables, made.attributes | lost))
+    write_ensemble([point], tmp_path / "ensemble.nc", {})
+    with open_ensemble(tmp_path / "ensemble.nc") as dataset:
+        failed, floppy = lost_samples(dataset)
+    assert (failed.kind, failed.stage, failed.point, failed.seed) == (
+        "failures",
+        "shear",
+        (16, 0.9, 1.0),
+        1,
+    )
+    assert str(failed) == "n = 16, phi = 0.9, kt = 1, seed 1: no balance"
+    assert (floppy.words, floppy.reason) == ("not rigid", "floppy")
+    with open_ensemble(synthetic.ensemble(tmp_path, phis=(0.9,))) as dataset:
+        assert lost_samples(dataset) == []

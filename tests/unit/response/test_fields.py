@@ -14,6 +14,7 @@ from example_packings import (
     reference,
     smoothed_coulomb,
 )
+from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw, Rattlers
@@ -192,13 +193,14 @@ LAW = ContactLaw("hertz", "elastic", 1e-2)
 
 
 def packings(*members: Packing, failures=None):
-    """A block of packings."""
+    """A block of packings; `failures` of its trajectories by seed."""
     attributes = {"stage": "packings", "n": members[0].n, "phi": 0.9, "config": {}}
     rows = [
         packing_row(member, Interaction.from_law(LAW).normal) | {"converged": True}
         for member in members
     ]
-    return compute_block(range(len(members)), rows.__getitem__, failures or {}, attributes)
+    earlier = Block({}, {"failures": {"trajectories": failures or {}}})
+    return compute_block(range(len(members)), rows.__getitem__, attributes, earlier)
 
 
 def test_a_block_holds_the_fields_of_its_first_sample():
@@ -247,4 +249,4 @@ def test_a_sample_that_fails_says_why():
     step = StepStrain(force_tolerance=1e-30)
     block = fields_block(packings(reference(MINIMAL[0])[1]), LAW, Rattlers(), step)
     assert block.variables["converged"][0] == 0
-    assert "step strain" in block.attributes["failures"]["0"]
+    assert "step strain" in block.attributes["failures"]["fields"]["0"]

@@ -37,7 +37,7 @@ def block(*packed_packings: Packing) -> Block:
     """Hertzian packings as a block, like one of stage `packings`."""
     rows = [packing_row(p, Hertz(1.0)) | {"converged": True} for p in packed_packings]
     point = {"n": packed_packings[0].n, "phi": packed_packings[0].phi}
-    return compute_block(range(len(rows)), rows.__getitem__, {}, point | {"stage": "packings"})
+    return compute_block(range(len(rows)), rows.__getitem__, point | {"stage": "packings"})
 
 
 def row(packing: Packing, kt: float, step: StepStrain | None = None) -> Block:
@@ -191,7 +191,7 @@ def test_a_diagnostic_that_fails_leaves_its_sentence_and_the_others(monkeypatch)
     monkeypatch.setattr(claim_diagnostics, "frictional_compression", hopeless)
     short = StepStrain(relaxation="damped", max_steps=40)
     found = row(reference(SMALL)[1], KT, short)
-    sentence = found.attributes["failures"]["0"]
+    sentence = found.attributes["failures"]["claim_diagnostics"]["0"]
     assert sentence.count("forward_rigidity: step strain") == 3
     assert sentence.endswith("compressed_pairs: it did not end")
     for name in ("g_forward_by_strain", "complex_pairs_frictional", "jammed_frictional"):
@@ -202,11 +202,11 @@ def test_a_diagnostic_that_fails_leaves_its_sentence_and_the_others(monkeypatch)
 def test_the_command_writes_what_the_function_finds(tmp_path):
     packings = block(reference(SMALL)[1])
     write_block(tmp_path / "packings.nc", packings)
-    words = ["claim-diagnostics", str(tmp_path / "packings.nc"), "--kt", "0"]
+    words = ["claim-diagnostics", str(tmp_path / "packings.nc"), "--kt", str(KT)]
     rattlers = json.dumps({"protocol": {"rattlers": {"threshold": 1}}})
     assert main([*words, "--settings", rattlers, "-o", str(tmp_path / "diagnostics.nc")]) == 0
     written = read_block(tmp_path / "diagnostics.nc")
     assert json.loads(written.attributes["config"])["rattlers"]["threshold"] == 1
-    found = row(reference(SMALL)[1], 0.0).variables
+    found = row(reference(SMALL)[1], KT).variables
     for name in found:
         np.testing.assert_array_equal(written.variables[name], found[name])

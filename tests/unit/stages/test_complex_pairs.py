@@ -31,7 +31,7 @@ def packings(*some: Packing) -> Block:
     """Hertzian packings as a block of stage `packings`."""
     rows = [packing_row(p, Hertz(1.0)) | {"converged": True} for p in some]
     point = {"n": some[0].n, "phi": some[0].phi, "stage": "packings"}
-    return compute_block(range(len(rows)), rows.__getitem__, {}, point)
+    return compute_block(range(len(rows)), rows.__getitem__, point)
 
 
 @pytest.fixture(scope="module")

@@ -10,6 +10,7 @@ from grainmodes.dataset.files import Block, write_block
 from grainmodes.kernels.laws import Harmonic
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.stages.event_detail import event_detail_block
 from grainmodes.stages.packing_rows import packing_row
 from grainmodes.stages.rows import compute_block
@@ -20,7 +21,7 @@ def block(law: ContactLaw, strain: float = 0.012) -> Block:
     """The stage on a block of two packings."""
     row = packing_row(packing_for(law), Harmonic(1.0)) | {"converged": True}
     attributes = {"stage": "packings", "n": 64, "phi": 0.86}
-    packings = compute_block((2, 5), lambda _: row, {}, attributes)
+    packings = compute_block((2, 5), lambda _: row, attributes)
     return event_detail_block(packings, law, Shear(strain))
 
 
@@ -49,6 +50,17 @@ def test_without_an_event_there_is_nothing_to_look_at(law, tmp_path):
     assert not found["bracket_kind"].any() and np.isnan(found["bracket_strain_after"]).all()
     assert "near_g" not in found and "rate" not in found
     write_block(tmp_path / "event_detail.nc", block(law, 1e-3))
+
+
+def test_a_shear_that_ends_early_is_no_shear_without_an_event(monkeypatch):
+    def end(run):
+        run.failure = ArithmeticError("no balance")
+        return False
+
+    monkeypatch.setattr(QuasistaticRun, "advance", end)
+    found = block.__wrapped__(LAWS[0], 1e-3)
+    assert (found.variables["event_count"][0], found.variables["converged"][0]) == (0, 0)
+    assert "no balance" in found.attributes["failures"]["event_detail"]["2"]
 
 
 def test_the_same_packing_gives_the_same_bytes(tmp_path):

@@ -50,9 +50,9 @@ def test_harmonic_springs_cannot_tell_what_they_remember():
 def test_a_law_that_ended_early_is_told():
     seen = [ComparedState(strain, 1, 0, 2, 0.1, 0.0) for strain in (1e-3, 2e-3)]
     found = dict.fromkeys(TANGENTIAL_LAWS, LawRun(seen))
-    found["sharp_coulomb"] = LawRun(seen[:1], "lost")
+    found["sharp_coulomb"] = LawRun(seen[:1], ArithmeticError("lost"))
     row = law_comparison.comparison_row(found)
-    assert row["failure"] == "sharp_coulomb: lost" and not row["converged"]
+    assert row["failures"] == "sharp_coulomb: ArithmeticError: lost" and not row["converged"]
     np.testing.assert_array_equal(row["comparison_strain"], [1e-3, 2e-3])
     np.testing.assert_array_equal(row["comparison_rate_sharp_coulomb"], [0.1, np.nan])
     np.testing.assert_array_equal(row["comparison_rate_elastic"], [0.1, 0.1])
@@ -62,4 +62,6 @@ def test_too_many_grains_are_refused(monkeypatch):
     monkeypatch.setattr(law_comparison, "MAX_GRAINS", 10)
     block = law_comparison.law_comparison_block(block_of("harmonic_n16_phi0.900_seed1"), C8, BRIEF)
     assert block.variables["converged"][0] == 0
-    assert "expected at most 10 grains, got 16" in block.attributes["failures"]["0"]
+    assert (
+        "expected at most 10 grains, got 16" in block.attributes["failures"]["law_comparison"]["0"]
+    )

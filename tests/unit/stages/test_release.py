@@ -100,7 +100,7 @@ def test_a_pair_that_does_not_belong_to_the_state_is_a_failed_row(name, value, s
     pairs.variables[name][0] = value
     failed = release_block(pairs, state()[1], CHOICES)
     assert failed.variables["converged"].tolist() == [0, 1]
-    assert sentence in failed.attributes["failures"]["0"]
+    assert sentence in failed.attributes["failures"]["release"]["0"]
 
 
 def test_a_point_keeps_the_numbers_of_runs_and_no_records(block):

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from grainmodes.cli import main
 from grainmodes.dataset.files import Block, read_block, write_block
 from grainmodes.ensemble.point import merge_blocks
 from grainmodes.kernels.laws import Harmonic, Interaction
+from grainmodes.linalg.pinned_factor import FloppyError
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import max_force_and_torque, net_force
 from grainmodes.packing.state import Packing
@@ -41,7 +43,7 @@ def packings(*some: Packing) -> Block:
     """Harmonic packings as a block of stage `packings`."""
     rows = [packing_row(p, Harmonic(1.0)) | {"converged": True} for p in some]
     point = {"n": some[0].n, "phi": some[0].phi, "stage": "packings"}
-    return compute_block(range(len(rows)), rows.__getitem__, {}, point)
+    return compute_block(range(len(rows)), rows.__getitem__, point)
 
 
 @pytest.fixture(scope="module")
@@ -97,14 +99,35 @@ def test_a_sample_that_loses_its_rigidity_keeps_its_curve(monkeypatch):
 
     def give_up(run):
         tries.append(run)
-        run.failure = "the backbone lost its rigidity"
+        run.failure = FloppyError("the backbone lost its rigidity")
         return len(tries) < 5 and advance(run)
 
     monkeypatch.setattr(QuasistaticRun, "advance", give_up)
     block = shear_block(packings(reference(SMALL)[1]), LAW, CHOICES)
     assert block.variables["converged"].tolist() == [0]
     assert block.variables["curve_count"].tolist() == [5]
-    assert block.attributes["failures"] == {"0": "the backbone lost its rigidity"}
+    assert block.attributes["failures"] == {}
+    reason = "FloppyError: the backbone lost its rigidity"
+    assert block.attributes["not_rigid"] == {"shear": {"0": reason}}
+
+
+def test_a_run_beside_the_curve_that_ends_early_is_no_run_without_events(monkeypatch):
+    advance = QuasistaticRun.advance
+
+    def advance_in_short_steps(run):
+        if run.choices.min_step < run.choices.step:
+            return advance(run)
+        run.failure = ArithmeticError("no balance")
+        return False
+
+    monkeypatch.setattr(QuasistaticRun, "advance", advance_in_short_steps)
+    brief = replace(CHOICES, strain=3e-3)
+    found = shear_block(packings(reference(SMALL)[1]), LAW, brief, coarse_run=True)
+    assert found.attributes["failures"]["shear"]["0"] == (
+        "coarse run: ArithmeticError: no balance; "
+        "first event within 1e-03: ArithmeticError: no balance"
+    )
+    assert found.variables["converged"].tolist() == [0]
 
 
 def test_a_point_keeps_curves_and_events_but_no_grains(sheared):

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from grainmodes.dataset.files import Block, BlockError, read_block
+from grainmodes.dataset.files import Block, BlockError, content_of, read_block
 from grainmodes.figures.shared.selection import Options, largest_or
 from grainmodes.parameters.law import ContactLaw
 
@@ -25,9 +25,8 @@ def read_samples(paths: list[str | Path], stage: str = "fields") -> list[Block]:
     found: dict[tuple, tuple[Path, Block]] = {}  # by point and seeds
     for path in paths:
         block = read_block(path)
-        written_by = block.attributes.get("stage", "something else")
-        if written_by != stage:
-            raise BlockError(f"{path}: expected {CONTENTS[stage]}, got {written_by}")
+        if block.attributes.get("stage") != stage:
+            raise BlockError(f"{path}: expected {CONTENTS[stage]}, got {content_of(block)}")
         samples = tuple(block.attributes[name] for name in ("n", "phi", "kt"))
         samples += tuple(block.variables["seed"].tolist())
         if samples in found:

@@ -59,10 +59,10 @@ class ComparedState(NamedTuple):
 
 @dataclass
 class LawRun:
-    """The states of a shear under one law; `ending` says why it ended early, if it did."""
+    """The states of a shear under one law; `failure` is why it ended early, if it did."""
 
     states: list[ComparedState] = field(default_factory=list)
-    ending: str = ""
+    failure: ArithmeticError | None = None
 
 
 def shear_under_law(packing: Packing, interaction: Interaction, choices: Shear) -> LawRun:
@@ -76,7 +76,7 @@ def shear_under_law(packing: Packing, interaction: Interaction, choices: Shear) 
             if step % interval == 0:
                 run.states.append(compare_state(equilibrium))
     except ArithmeticError as error:
-        run.ending = str(error)
+        run.failure = error
     return run
 
 

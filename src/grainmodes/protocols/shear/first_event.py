@@ -29,7 +29,8 @@ CURVE_MARGIN = 2
 class Bracket:
     """The first event between the states `before` and `after`, and the curve around it.
 
-    Without an event `before` is the last state of the run, `event` and `after` are None.
+    Without an event `before` is the last state of the run, `event` and `after` are None. `failure`
+    is why the run ended before its last strain, if it found no event up to there.
     """
 
     min_step: float
@@ -37,6 +38,7 @@ class Bracket:
     curve: list[CurvePoint]
     event: PlasticEvent | None = None
     after: ShearedState | None = None
+    failure: ArithmeticError | None = None
 
 
 def refined_steps(choices: Shear) -> list[Shear]:
@@ -87,4 +89,5 @@ def run_to_first_event(run: QuasistaticRun) -> Bracket:
                 break
         curve = [point for point in run.curve if abs(point.strain - after.strain) < 1.001 * width]
         return Bracket(min_step, before, curve, event, after)
-    return Bracket(min_step, run.state, run.curve[-1:])
+    failure = None if run.done else run.failure
+    return Bracket(min_step, run.state, run.curve[-1:], failure=failure)

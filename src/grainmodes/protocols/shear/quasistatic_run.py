@@ -37,7 +37,7 @@ class QuasistaticRun:
     """A shear on its way, with everything recorded so far.
 
     `step_units` is the length of the next step in units of Δγ_Th. Once it has been shortened it
-    stays short until the strain reaches `refine_until`, in the same units. `failure` says why the
+    stays short until the strain reaches `refine_until`, in the same units. `failure` is why the
     last failed step did not find an equilibrium.
     """
 
@@ -48,7 +48,7 @@ class QuasistaticRun:
     curve: list[CurvePoint] = field(default_factory=list)
     network_changes: list[NetworkChange] = field(default_factory=list)
     events: list[PlasticEvent] = field(default_factory=list)
-    failure: str = ""
+    failure: ArithmeticError | None = None
 
     @classmethod
     def from_packing(
@@ -98,7 +98,7 @@ class QuasistaticRun:
             after = self._state_after(units)
             kind = event_kind(self.state, after)
         except ArithmeticError as error:
-            after, kind, self.failure = None, 0, str(error)
+            after, kind, self.failure = None, 0, error
         if units > 1 and (after is None or kind):
             self.step_units = largest_power_of_ten_below(units)
             self.refine_until = self.state.strain_units + units

@@ -30,4 +30,4 @@ def test_a_way_that_ends_keeps_what_was_seen(monkeypatch):
     found = shear_under_law(
         reference("harmonic_n16_phi0.900_seed1")[1], Interaction.from_law(C8), BRIEF
     )
-    assert (len(found.states), found.ending) == (10, "lost")
+    assert (len(found.states), str(found.failure)) == (10, "lost")
