@@ -47,15 +47,18 @@ def shared_edges(
 ) -> np.ndarray:
     """Edges (B + 1,), 1/t_0, for all spectra: A's bins over their whole range.
 
-    The edges of a binned spectrum, if one of them is; a single edge if none has a vibration.
+    If a spectrum is binned, its edges, and beyond them A's bins as far as resolved modes reach; a
+    single edge if none has a vibration.
     """
-    for modes in spectra:
-        if isinstance(modes, BinnedModes):
-            return modes.edges
-    frequency = np.concatenate([modes.frequency.ravel() for modes in spectra])
+    counted = next((m.edges for m in spectra if isinstance(m, BinnedModes)), np.zeros(0))
+    resolved = [modes.frequency.ravel() for modes in spectra if isinstance(modes, ResolvedModes)]
+    frequency = np.concatenate([*resolved, np.zeros(0)])
     if not np.isfinite(frequency).any():
-        return np.zeros(1)
-    return binning.bin_edges(kappa, np.nanmin(frequency), np.nanmax(frequency), bin_density)
+        return counted if len(counted) else np.zeros(1)
+    edges = binning.bin_edges(kappa, np.nanmin(frequency), np.nanmax(frequency), bin_density)
+    if len(counted) < 2:
+        return edges
+    return np.concatenate([edges[edges < counted[0]], counted, edges[edges > counted[-1]]])
 
 
 def points_with(ensemble: xr.Dataset, *names: str) -> xr.DataArray:

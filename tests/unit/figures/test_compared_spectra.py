@@ -4,6 +4,7 @@ import numpy as np
 from numpy.testing import assert_allclose, assert_array_equal
 
 import synthetic
+from grainmodes.ensemble import open_ensemble, write_ensemble
 from grainmodes.ensemble.spectra import spectrum
 from grainmodes.figures.paper_a import (
     dos_frictionless,
@@ -21,6 +22,22 @@ def test_frictionless_grains_have_the_translational_band_alone(whole_ensemble):
     assert_array_equal(frictional["omega_low"], without["omega_low"])
     assert (frictional["modes"].sum(), without["modes"].sum()) == (3 * 46, 3 * 30)
     assert without.loc[without["omega"] < 0.01, "modes"].sum() == 0
+
+
+def test_the_rotational_band_is_shown_beside_frictionless_modes_that_were_counted(tmp_path):
+    counted, known = ("packings", "spectrum_bins"), ("packings", "spectrum")
+    points = [
+        synthetic.point(tmp_path, 16, 0.9, 0.0, 3, stages=counted),
+        synthetic.point(tmp_path, 16, 0.9, 1e-8, 3, stages=known),
+    ]
+    write_ensemble(points, tmp_path / "ensemble.nc", {})
+    with open_ensemble(tmp_path / "ensemble.nc") as dataset:
+        table = dos_frictionless.table(dataset, Options())
+    frictional, without = (table[table["kind"] == kind] for kind in ("frictional", "frictionless"))
+    assert (frictional["modes"].sum(), without["modes"].sum()) == (3 * 46, 3 * 30)
+    assert frictional.loc[frictional["omega"] < 1e-3, "modes"].sum() == 3 * 16
+    assert (frictional["omega_high"] > frictional["omega_low"]).all()
+    assert set(without["omega_low"]) <= set(frictional["omega_low"])
 
 
 def test_the_hessian_is_the_jacobian_with_tangent_stiffnesses_alone(whole_ensemble):

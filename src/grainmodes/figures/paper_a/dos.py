@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from grainmodes.figures.shared import appearance, spectral_rows
 from grainmodes.figures.shared.captions import Caption
+from grainmodes.figures.shared.mode_marks import draw_marks
 from grainmodes.figures.shared.selection import Options, choose_panels
 from grainmodes.figures.shared.spectral_panels import draw_density_panels
 from grainmodes.figures.shared.spectral_points import choose_density_points
@@ -34,17 +35,20 @@ def caption(table: pd.DataFrame) -> Caption:
     """What is drawn, and what to look at."""
     return Caption(
         "Density of states D(ω), A (23), against ω t_0, double logarithmic, a panel per k_T/k_N. "
-        "Symbols: means over the samples, bars: standard errors.",
+        "Symbols: means over the samples, bars: standard errors over the samples, as long below "
+        "as above. Dotted lines (a1), …, (b3): the frequencies near which the figure of "
+        "eigenvectors shows a mode (A, Fig. 7).",
         "the rotational band, which ends at about ω_R t_0 = (k_T/k_N)^(1/2), and its distance to "
         "the translational band, which does not depend on k_T at weak friction.",
     )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Draw a panel per k_T."""
-    draw_density_panels(figure, table, _panel)
+    """Draw a panel per k_T, with marks at the modes of A's Fig. 7."""
+    for axes, kt in draw_density_panels(figure, table, _panel).items():
+        draw_marks(axes, kt)
 
 
 def _panel(axes: Axes, bins: pd.DataFrame) -> None:
-    bars = bins["density_standard_error"]
+    bars = appearance.logarithmic_bars(bins["density"], bins["density_standard_error"])
     appearance.draw_cloud(axes, bins["omega"], bins["density"], bars, appearance.ROTATIONAL, "o")

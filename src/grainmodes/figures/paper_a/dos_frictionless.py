@@ -52,7 +52,8 @@ def caption(table: pd.DataFrame) -> Caption:
     return Caption(
         "Density of states D(ω) with weak friction (red filled circles) and without friction "
         "(blue open triangles), in the same bins and both divided by 3N. Grains without friction "
-        "have no rotations. Double logarithmic; bars: standard errors.",
+        "have no rotations. Double logarithmic; bars: standard errors over the samples, as long "
+        "below as above.",
         "the translational band, which is the same for both, and the rotational band, which only "
         "grains with friction have.",
     )

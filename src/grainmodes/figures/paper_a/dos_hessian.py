@@ -70,7 +70,8 @@ def caption(table: pd.DataFrame) -> Caption:
         "Density of states of the Jacobian (blue filled circles) and of the effective Hessian of "
         "A's Appendix H, in the same bins, a panel per k_T/k_N: red open squares with the tangent "
         "stiffnesses of the contact law, grey triangles with the constants k_N and k_T that A "
-        "(H2) prints. Double logarithmic; bars: standard errors.",
+        "(H2) prints. Double logarithmic; bars: standard errors over the samples, as long below "
+        "as above.",
         "whether squares surround circles everywhere, and how far the triangles lie from both.",
     )
 

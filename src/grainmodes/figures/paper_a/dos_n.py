@@ -32,8 +32,8 @@ def caption(table: pd.DataFrame) -> Caption:
     """What is drawn, and what to look at."""
     return Caption(
         "Density of states D(ω) at one weak k_T/k_N, a colour per number of grains N. Double "
-        "logarithmic; bars: standard errors over the samples, whose number may differ from N to "
-        "N. A line ends where a bin has no modes.",
+        "logarithmic; bars: standard errors over the samples, as long below as above; the number "
+        "of samples may differ from N to N. A line ends where a bin has no modes.",
         "whether the curves coincide in both bands; a larger box adds sound waves at the low end "
         "of the translational band.",
     )

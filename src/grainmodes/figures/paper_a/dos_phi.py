@@ -32,7 +32,8 @@ def caption(table: pd.DataFrame) -> Caption:
     """What is drawn, and what to look at."""
     return Caption(
         "Density of states D(ω) at one weak k_T/k_N, a colour per area fraction φ. Double "
-        "logarithmic; bars: standard errors. A line ends where a bin has no modes.",
+        "logarithmic; bars: standard errors over the samples, as long below as above. A line ends "
+        "where a bin has no modes.",
         "towards jamming the rotational band moves to lower ω, and the plateau of the "
         "translational band becomes longer.",
     )

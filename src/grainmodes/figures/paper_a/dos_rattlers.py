@@ -54,7 +54,8 @@ def caption(table: pd.DataFrame) -> Caption:
     return Caption(
         "Density of states without rattlers (blue filled triangles) and with them (red open "
         "circles), in the same bins, a panel per k_T/k_N. A rattler has at most Z_Th contacts; "
-        "rattlers are removed until none is left. Double logarithmic; bars: standard errors.",
+        "rattlers are removed until none is left. Double logarithmic; bars: standard errors over "
+        "the samples, as long below as above.",
         "which modes only the spectrum with rattlers has, and whether modes between the bands "
         "remain without them.",
     )

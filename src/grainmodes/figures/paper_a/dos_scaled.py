@@ -48,7 +48,8 @@ def caption(table: pd.DataFrame) -> Caption:
     """What is drawn, and what to look at."""
     return Caption(
         "Density of states scaled by ω_R = (k_T/k_N)^(1/2)/t_0: ω_R D against ω/ω_R, double "
-        "logarithmic, a colour per k_T/k_N; small k_T lie on top. Bars: standard errors.",
+        "logarithmic, a colour per k_T/k_N; small k_T lie on top. Bars: standard errors over the "
+        "samples, as long below as above.",
         "whether the curves of k_T/k_N ≤ 10⁻² coincide for 0.1 < ω/ω_R < 1, and where the peak "
         "lies.",
     )
@@ -60,8 +61,9 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     filled = table[table["modes"] > 0]
     for kt, colour, marker in appearance.curve_styles(sorted(filled["kt"].unique())):
         bins = filled[filled["kt"] == kt]
-        curve = (bins[f"scaled_{name}"] for name in ("omega", "density", "density_standard_error"))
-        appearance.draw_cloud(axes, *curve, colour, marker, zorder=3 - kt / 100)
+        omega, density = bins["scaled_omega"], bins["scaled_density"]
+        bars = appearance.logarithmic_bars(density, bins["scaled_density_standard_error"])
+        appearance.draw_cloud(axes, omega, density, bars, colour, marker, zorder=3 - kt / 100)
         appearance.add_to_legend(axes, f"${labels.ratio(kt)}$", colour, marker)
     limits = appearance.logarithmic_limits(filled["scaled_density"])
     axes.set(xscale="log", yscale="log", xlim=SCALED_RANGE, ylim=limits)

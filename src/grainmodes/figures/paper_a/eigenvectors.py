@@ -28,11 +28,11 @@ from grainmodes.figures.shared.grain_maps import (
     write_map_caption,
 )
 from grainmodes.figures.shared.grain_rows import GRAINS, field_columns, field_values, grain_rows
+from grainmodes.figures.shared.mode_marks import PAPER_KTS, row_letters
 from grainmodes.figures.shared.sample_files import jammed_at_point, joined
 from grainmodes.figures.shared.selection import Options, choose_curves, positive_kts
 
 PAPER_N = 4096
-PAPER_KTS = (1e-8, 1e-4)
 
 COLUMNS = {
     **GRAINS,
@@ -100,7 +100,7 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     figure.set_layout_engine("compressed")
     grid = figure.subplots(len(kts), columns, squeeze=False, sharex=True, sharey=True)
     scale = Scale.from_fields(table, ("mode",), arrow=1.2)
-    for letter, kt, panels in zip("abcdefgh", kts, grid, strict=False):
+    for letter, kt, panels in zip(row_letters(kts), kts, grid, strict=True):
         arrows = _row_of_maps(letter, panels, table[table["kt"] == kt], scale)
         panels[0].set_ylabel(f"$k_T / k_N = {labels.ratio(kt)}$\n$y/d$")
     add_key(panels[0], arrows, scale, "")

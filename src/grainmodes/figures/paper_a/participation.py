@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from grainmodes.ensemble.spectra import points_with
 from grainmodes.figures.shared import appearance, spectral_rows
 from grainmodes.figures.shared.captions import Caption
+from grainmodes.figures.shared.mode_marks import draw_marks
 from grainmodes.figures.shared.selection import Options, choose_panels, positive_kts
 from grainmodes.figures.shared.spectral_panels import draw_panels
 from grainmodes.figures.shared.spectral_points import MODE_VARIABLES, choose_points
@@ -38,19 +39,21 @@ def caption(table: pd.DataFrame) -> Caption:
         "Translational fraction ψᵀ (red squares) and rotational fraction ψᴿ (blue circles) of the "
         "modes, A (51) and (52), against ω t_0, a panel per k_T/k_N. Means over the modes of a "
         "bin; bars: standard errors over the samples. A bin without modes has no symbol, where A "
-        "plots 0.",
+        "plots 0. Dotted lines (a1), …, (b3): the frequencies near which the figure of "
+        "eigenvectors shows a mode (A, Fig. 7).",
         "Region I, where ψᴿ is 1, below Region II, where ψᵀ is 1; the gap between them at weak "
         "friction, and how both fractions mix in all modes once k_T is of the order of k_N.",
     )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Draw a panel per k_T."""
+    """Draw a panel per k_T, with marks at the modes of A's Fig. 7."""
     filled = table[table["modes"] > 0]
     panels = draw_panels(figure, filled, r"$\psi^T,\ \psi^R$", _panel)
-    for axes in panels:
+    for axes, kt in panels.items():
         axes.set(ylim=(-0.05, 1.05), yticks=(0, 0.25, 0.5, 0.75, 1))
-    panels[0].legend()
+        draw_marks(axes, kt)
+    next(iter(panels)).legend()
 
 
 def _panel(axes: Axes, bins: pd.DataFrame) -> None:

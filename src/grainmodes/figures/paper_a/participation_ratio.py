@@ -56,8 +56,8 @@ def caption(table: pd.DataFrame) -> Caption:
     return Caption(
         f"Participation ratio p(ω) of the modes, A (E2), {table['kind'].iloc[0]} rattlers, against "
         "ω t_0, double logarithmic, a panel per k_T/k_N. Means over the modes of a bin; bars: "
-        "standard errors over the samples. Dashed line: 1/N, a mode of a single grain. A bin "
-        "without modes has no symbol, where A plots 0.",
+        "standard errors over the samples, as long below as above. Dashed line: 1/N, a mode of a "
+        "single grain. A bin without modes has no symbol, where A plots 0.",
         "modes near the dashed line, below and between the bands, which are localised; the "
         "rotational band, which moves with (k_T/k_N)^(1/2) and keeps its shape.",
     )
@@ -70,11 +70,12 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     panels = draw_panels(figure, filled, r"$p(\omega)$", _panel, note)
     for axes in panels:
         axes.set_yscale("log")
-    panels[0].legend()
+    next(iter(panels)).legend()
 
 
 def _panel(axes: Axes, bins: pd.DataFrame) -> None:
     one_grain = 1.0 / bins["n"].iloc[0]
     axes.axhline(one_grain, color="0.4", linestyle="--", linewidth=0.7, label="$1/N$")
-    ratio, bars = bins["participation_ratio"], bins["participation_ratio_standard_error"]
+    ratio = bins["participation_ratio"]
+    bars = appearance.logarithmic_bars(ratio, bins["participation_ratio_standard_error"])
     appearance.draw_cloud(axes, bins["omega"], ratio, bars, appearance.ROTATIONAL, "o")

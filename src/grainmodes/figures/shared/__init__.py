@@ -11,6 +11,7 @@
 | `spectral_points`  | which points of a grid have spectra to show                            |
 | `spectral_rows`    | D, ψ and p in bins of ω: A, Figs. 8 to 16                              |
 | `spectral_panels`  | their panels                                                           |
+| `mode_marks`       | the marks (a1), …, (b3) that tie A, Figs. 8 and 9 to Fig. 7            |
 | `sheared_samples`  | curves of sheared samples: B, Figs. 1, 2, 7 to 9                       |
 | `pair_samples`     | samples with exceptional points: C, Figs. 1 to 4                       |
 | `sample_files`     | files of single samples, and which of them a figure shows              |

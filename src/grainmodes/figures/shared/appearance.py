@@ -37,12 +37,29 @@ def add_to_legend(axes: Axes, label: str, colour, marker: str, **style) -> None:
 
 
 def draw_cloud(axes: Axes, x, y, error, colour, marker: str, **style) -> None:
-    """Draw a curve of hundreds of points as small symbols with faint error bars."""
+    """Draw a curve of hundreds of points as small symbols with faint error bars.
+
+    Args:
+        error: (B,), or the lower and the upper arms (2, B).
+    """
     faint = (*matplotlib.colors.to_rgb(colour), 0.35)
     style = {"markersize": 1.8, "ecolor": faint, "elinewidth": 0.5} | style
     axes.errorbar(x, y, error, fmt=marker, color=colour, **style)
 
 
+def logarithmic_bars(mean: np.ndarray, error: np.ndarray) -> np.ndarray:
+    """Arms (2, B) of error bars on a logarithmic axis, where both have the length of the upper one.
+
+    Below, a bar ends at mean / (1 + error / mean), which is mean − error for a small error and
+    never 0.
+    """
+    mean, error = np.asarray(mean, float), np.asarray(error, float)
+    return np.stack([mean * error / (mean + error), error])
+
+
 def logarithmic_limits(values) -> tuple[float, float]:
-    """Limits of an axis around positive values; error bars that reach 0 would set them else."""
+    """Limits of an axis around positive values, with the bars of `logarithmic_bars` inside.
+
+    The standard error of values that are not negative is at most their mean.
+    """
     return values.min() / 3, values.max() * 3

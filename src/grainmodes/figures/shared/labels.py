@@ -105,7 +105,7 @@ def write_sample_caption(figure: Figure, table, note: str) -> None:
 
 def name_panel(axes: Axes, index: int, text: str) -> None:
     """Write letter and title above a panel."""
-    axes.set_title(f"({'abcdefgh'[index]}) {text}")
+    axes.set_title(f"({'abcdefgh'[index]}) {text}", loc="left")
 
 
 def say_empty(figure: Figure) -> None:

@@ -1,6 +1,7 @@
 """Panels of spectra: a grid with a panel per k_T, or one panel with a curve per N or φ.
 
-Symbols are means over the samples, bars their standard errors; a bin without modes has no symbol.
+Symbols are means over the samples, bars their standard errors, on a logarithmic axis as long below
+as above; a bin without modes has no symbol.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from grainmodes.figures.shared.appearance import (
     add_to_legend,
     curve_styles,
     draw_cloud,
+    logarithmic_bars,
     logarithmic_limits,
 )
 
@@ -34,7 +36,7 @@ def draw_panels(
     ordinate: str,
     draw: Callable[[Axes, pd.DataFrame], None],
     note: str = "",
-) -> list[Axes]:
+) -> dict[Axes, float]:
     """Draw the rows of each k_T over a logarithmic axis of ω, two panels side by side.
 
     The two share their axes; the next two, of larger k_T, span fewer decades and have their own.
@@ -45,11 +47,11 @@ def draw_panels(
         note: what the caption says below the numbers.
 
     Returns:
-        the panels, ascending in k_T.
+        panel → k_T, ascending.
     """
     kts = sorted(table["kt"].unique())
-    panels = _grid(figure, len(kts))
-    for index, (axes, kt) in enumerate(zip(panels, kts, strict=True)):
+    panels = dict(zip(_grid(figure, len(kts)), kts, strict=True))
+    for index, (axes, kt) in enumerate(panels.items()):
         draw(axes, table[table["kt"] == kt])
         labels.name_panel(axes, index, f"$k_T / k_N = {labels.ratio(kt)}$")
     for axes in panels:
@@ -84,21 +86,23 @@ def _scale_frequencies(axes: Axes) -> None:
 
 def draw_density_panels(
     figure: Figure, table: pd.DataFrame, draw: Callable[[Axes, pd.DataFrame], None]
-) -> list[Axes]:
-    """Draw panels of D, double logarithmic."""
+) -> dict[Axes, float]:
+    """Draw panels of D, double logarithmic; returns panel → k_T."""
     filled = table[table["modes"] > 0]
     panels = draw_panels(figure, filled, DENSITY_LABEL, draw)
+    ordered = list(panels)
     densities = [density for _, density in filled.groupby("kt")["density"]]
-    for first in range(0, len(panels), PANEL_COLUMNS):
+    for first in range(0, len(ordered), PANEL_COLUMNS):
         row = pd.concat(densities[first : first + PANEL_COLUMNS])
-        panels[first].set(yscale="log", ylim=logarithmic_limits(row))
+        ordered[first].set(yscale="log", ylim=logarithmic_limits(row))
     return panels
 
 
 def draw_density_kinds(figure: Figure, table: pd.DataFrame, styles: dict[str, dict]) -> None:
     """Draw panels of D with spectra of several kinds in each."""
     draw_kinds_in_styles = partial(draw_kinds, column="density", styles=styles)
-    draw_density_panels(figure, table, draw_kinds_in_styles)[0].legend()
+    first, *_ = draw_density_panels(figure, table, draw_kinds_in_styles)
+    first.legend()
 
 
 def draw_kinds(axes: Axes, rows: pd.DataFrame, column: str, styles: dict[str, dict]) -> None:
@@ -110,9 +114,10 @@ def draw_kinds(axes: Axes, rows: pd.DataFrame, column: str, styles: dict[str, di
 def draw_spectrum(
     axes: Axes, rows: pd.DataFrame, column: str, label: str, colour, marker: str, **style
 ) -> None:
-    """Draw a column of rows against ω, and its entry in the legend; nothing without values."""
+    """Draw a column of rows over a logarithmic axis against ω, and its entry in the legend;
+    nothing without values."""
     if rows[column].notna().any():
-        bars = rows[f"{column}_standard_error"]
+        bars = logarithmic_bars(rows[column], rows[f"{column}_standard_error"])
         draw_cloud(axes, rows["omega"], rows[column], bars, colour, marker, **style)
         entry = {key: style[key] for key in ("mfc",) if key in style}
         add_to_legend(axes, label, colour, marker, **entry)
