@@ -21,7 +21,7 @@ from grainmodes.kernels.neighbours import FRACTION_UNIT, find_neighbours
 from grainmodes.kernels.repulsion import repulsion
 from grainmodes.relaxation.frictionless import SKIN
 
-FLAGS = {"error_model": "numpy", "fastmath": {"reassoc", "contract", "nsz"}}
+FLAGS = {"error_model": "numpy"}
 GRAINS_PER_BLOCK = 256
 ROUNDS = 41
 """Times that the project's kernel and its twins are run in turn."""

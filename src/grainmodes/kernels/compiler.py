@@ -1,7 +1,9 @@
 """The one table of compiler flags, and the two decorators that use it.
 
-`reassoc` lets sums over grains and contacts vectorise; the order of a sum is then fixed by the
-machine, so the same machine gives the same bytes. NaN and infinity keep their meaning.
+Compression is chaotic, so the same seed gives the same packing on two machines only if each of its
+numbers has the same bits on both. Therefore no flag lets the compiler reorder a sum (`reassoc`) or
+round twice as one (`contract`): every operation is rounded as IEEE 754 says, in the order in which
+it is written. Long sums are written in fixed lanes (`lanes`), which keeps them fast.
 """
 
 from __future__ import annotations
@@ -17,12 +19,7 @@ from numba.extending import overload, register_jitable
 
 from grainmodes.runtime.environment import numba_cache
 
-FLAGS = {
-    "cache": True,
-    "error_model": "numpy",
-    "nogil": True,
-    "fastmath": {"reassoc", "contract", "nsz"},
-}
+FLAGS = {"cache": True, "error_model": "numpy", "nogil": True}
 
 # numba's cache does not see an edit in a called function of another file, so its folder is named by
 # the fingerprint of the kernels, also where the package is used as a library.
@@ -116,7 +113,5 @@ def _overload(generic, function, takes):
     signature = ", ".join(names)
     scope = {"choose": choose}
     exec(f"def specialise({signature}): return choose({signature})", scope)
-    overload(generic, jit_options={"fastmath": FLAGS["fastmath"], "error_model": "numpy"})(
-        scope["specialise"]
-    )
+    overload(generic, jit_options={"error_model": "numpy"})(scope["specialise"])
     return function

@@ -27,6 +27,7 @@ import numpy as np
 from grainmodes.kernels.cache_blocks import GRAINS_PER_BLOCK, pair_scratch
 from grainmodes.kernels.compiler import kernel
 from grainmodes.kernels.damping import drag_rate, pair_viscosity
+from grainmodes.kernels.lanes import lane_sum
 from grainmodes.kernels.laws import (
     advance_spring,
     clip_to_coulomb,
@@ -208,8 +209,9 @@ def residual_motion(grains):
     force = max(np.abs(grains.fx).max(), np.abs(grains.fy).max())
     velocity = max(np.abs(grains.vx).max(), np.abs(grains.vy).max())
     turning = max(np.abs(grains.torque).max(), np.abs(grains.w).max())
-    numbers = grains.fx.sum() + grains.fy.sum() + grains.torque.sum() + grains.w.sum()
-    if not np.isfinite(numbers + grains.vx.sum() + grains.vy.sum()):
+    numbers = lane_sum(grains.fx) + lane_sum(grains.fy) + lane_sum(grains.torque)
+    numbers += lane_sum(grains.vx) + lane_sum(grains.vy) + lane_sum(grains.w)
+    if not np.isfinite(numbers):
         return np.inf
     return max(force, max(velocity, turning))
 

@@ -24,6 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from grainmodes.kernels.compiler import kernel
+from grainmodes.kernels.lanes import LANES, load, no_lanes, same_lanes, total, whole_lanes
 from grainmodes.kernels.neighbours import FRACTION_UNIT, find_neighbours
 from grainmodes.kernels.repulsion import mean_force_and_stiffness, repulsion
 
@@ -97,8 +98,17 @@ def advance(x, y, vx, vy, fx, fy, inverse_mass, state, units, strain):
 @kernel
 def power_and_norms(vx, vy, fx, fy, inverse_mass, half_step):
     """F·v, v·v and F·F after the second half kick v + Δt F/2m, which is not yet stored."""
-    power, speed2, force2 = 0.0, 0.0, 0.0
-    for i in range(vx.shape[0]):
+    n = vx.shape[0]
+    half_steps = same_lanes(half_step)
+    power_lanes, speed2_lanes, force2_lanes = no_lanes(), no_lanes(), no_lanes()
+    for i in range(0, whole_lanes(n), LANES):
+        f, g, kick = load(fx, i), load(fy, i), half_steps * load(inverse_mass, i)
+        u, w = load(vx, i) + kick * f, load(vy, i) + kick * g
+        power_lanes += u * f + w * g
+        speed2_lanes += u * u + w * w
+        force2_lanes += f * f + g * g
+    power, speed2, force2 = total(power_lanes), total(speed2_lanes), total(force2_lanes)
+    for i in range(whole_lanes(n), n):
         kick = half_step * inverse_mass[i]
         u, w = vx[i] + kick * fx[i], vy[i] + kick * fy[i]
         power += u * fx[i] + w * fy[i]

@@ -58,7 +58,7 @@ def advance_springs(interaction, normal, distance, overlap, spring_state, i, j, 
         x, y = on_i[0] - on_j[0], on_i[1] - on_j[1]
         mx = normal[c, 0] * distance[c] + 0.5 * x
         my = normal[c, 1] * distance[c] + 0.5 * y
-        length = math.hypot(mx, my)
+        length = math.sqrt(mx * mx + my * my)
         after[c] = advance_spring(
             interaction.tangential,
             interaction.normal,

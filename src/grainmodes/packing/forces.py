@@ -14,6 +14,7 @@ import numpy as np
 from grainmodes.kernels.assembly import sum_on_grains
 from grainmodes.kernels.contacts import contact_forces, normal_forces
 from grainmodes.kernels.energies import contact_energies
+from grainmodes.kernels.lanes import lane_sum
 from grainmodes.kernels.laws import SLIDING_FRACTION, Frictionless, Interaction
 from grainmodes.kernels.springs import slip_thresholds
 from grainmodes.packing.contacts import Contacts
@@ -97,7 +98,7 @@ def stress(packing: Packing, interaction: Interaction) -> np.ndarray:
 def energy(packing: Packing, interaction: Interaction) -> float:
     """Energy stored in the contacts, in k_N d^(5/2) (Hertz) or k_N d²: see `kernels.energies`."""
     contacts = packing.contacts
-    return float(contact_energies(interaction, contacts.overlap, contacts.spring_state).sum())
+    return lane_sum(contact_energies(interaction, contacts.overlap, contacts.spring_state))
 
 
 def mean_contact_force(packing: Packing, interaction: Interaction) -> float:
@@ -105,4 +106,4 @@ def mean_contact_force(packing: Packing, interaction: Interaction) -> float:
     if len(packing.contacts.i) == 0:
         return 0.0
     forces = forces_on_i(packing.contacts, interaction)
-    return float(np.hypot(forces[:, 0], forces[:, 1]).mean())
+    return lane_sum(np.sqrt(forces[:, 0] ** 2 + forces[:, 1] ** 2)) / len(forces)
