@@ -27,6 +27,7 @@ rule all:
     input:
         ensemble=rules.ensemble.output,
         checks=rules.checks.output,
+        passed=rules.passed.output,
         claims=rules.claims.output,
         samples=[samples_of(stage.name) for stage in responses() if stage.single_sample],
         figures=figures(),

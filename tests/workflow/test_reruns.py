@@ -4,7 +4,7 @@ import pytest
 
 from .conftest import SCENE, jobs_in
 
-AFTER_POINTS = {"point": 4, "ensemble": 1, "checks": 1, "claims": 1, "figure": 2}
+AFTER_POINTS = {"point": 4, "ensemble": 1, "checks": 1, "claims": 1, "figure": 2, "passed": 1}
 
 
 def scene_with(**changes) -> dict:
@@ -28,7 +28,9 @@ def test_every_result_is_there(built):
 def test_every_consistency_check_has_passed(built):
     lines = (built.results / "checks.txt").read_text().splitlines()
     assert len(lines) >= 10
-    assert all(line.startswith("passed") for line in lines)
+    assert all(line.startswith(("passed", "stated")) for line in lines)
+    assert "stated  not jammed: 4 of 8 converged samples" in lines
+    assert "passed  no sample failed[spectrum]" in lines
 
 
 def test_more_seeds_run_new_blocks_only(study):

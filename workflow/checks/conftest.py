@@ -1,4 +1,9 @@
-"""The ensemble that is checked, and the report of the consistency checks and their results."""
+"""The ensemble that is checked, and the report of the consistency checks and their results.
+
+A line of the report begins with "passed", "failed" or "skipped" and names its check. Below it is
+said why a check failed. A line that begins with "stated" says what is no failure: samples that are
+not jammed, and samples that lose their rigidity.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +15,7 @@ import pytest
 import xarray
 
 from grainmodes.ensemble import open_ensemble
+from grainmodes.ensemble.lost import LostSample, lost_samples
 
 RESULTS = pytest.StashKey[list[str]]()
 
@@ -20,22 +26,54 @@ def pytest_addoption(parser) -> None:
     parser.addoption("--report", type=Path, required=True, help="text file to write")
 
 
+def pytest_generate_tests(metafunc) -> None:
+    """Give a check of stages every stage of the ensemble, and every other that lost a sample."""
+    if "stage" in metafunc.fixturenames:
+        with open_ensemble(metafunc.config.getoption("ensemble")) as opened:
+            stages = [stage for stage in opened.attrs.get("stages", "").split(", ") if stage]
+            stages += sorted({sample.stage for sample in lost_samples(opened)} - {*stages})
+        metafunc.parametrize("stage", stages)
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
     """Add one line per check, without times, so that equal ensembles have equal reports."""
     report = yield
-    if report.when == "call" or report.skipped:
+    if report.when == "call" or report.skipped or report.failed:
         check = item.name.removeprefix("test_").replace("_", " ")
-        why = f": {report.longrepr[2].removeprefix('Skipped: ')}" if report.skipped else ""
         results = item.session.stash.setdefault(RESULTS, [])
-        results.append(f"{report.outcome:8}{check}{why}")
+        results.append(f"{report.outcome:8}{check}{_why(report, call)}")
     return report
 
 
+def _why(report, call) -> str:
+    """Why a check was skipped or failed."""
+    if report.skipped:
+        return f": {report.longrepr[2].removeprefix('Skipped: ')}"
+    if not report.failed:
+        return ""
+    lines = str(call.excinfo.value).splitlines() or [call.typename]
+    return f": {lines[0]}" + "".join(f"\n        {line}" for line in lines[1:])
+
+
 def pytest_sessionfinish(session) -> None:
-    """Write the report: one line per check with its result."""
-    lines = [*session.stash.get(RESULTS, []), ""]
-    session.config.getoption("report").write_text("\n".join(lines), encoding="utf-8")
+    """Write the report: one line per check with its result, then what is stated."""
+    config = session.config
+    with open_ensemble(config.getoption("ensemble")) as opened:
+        lines = [*session.stash.get(RESULTS, []), *_statements(opened), ""]
+    config.getoption("report").write_text("\n".join(lines), encoding="utf-8")
+
+
+def _statements(ensemble: xarray.Dataset) -> list[str]:
+    """What is no failure and is to be known: one line each."""
+    lines = []
+    if "jammed" in ensemble:
+        converged = ensemble["converged"] == 1
+        loose = int((converged & (ensemble["jammed"] == 0)).sum())
+        lines += [f"stated  not jammed: {loose} of {int(converged.sum())} converged samples"]
+    not_rigid = [sample for sample in lost_samples(ensemble) if sample.kind == "not_rigid"]
+    lines += [f"stated  not rigid[{sample.stage}]: {sample}" for sample in not_rigid]
+    return lines
 
 
 @pytest.fixture(scope="session")
@@ -43,6 +81,12 @@ def ensemble(request) -> Iterator[xarray.Dataset]:
     """The ensemble; arrays are read when they are used."""
     with open_ensemble(request.config.getoption("ensemble")) as dataset:
         yield dataset
+
+
+@pytest.fixture(scope="session")
+def lost(ensemble) -> list[LostSample]:
+    """The samples without a whole result."""
+    return lost_samples(ensemble)
 
 
 @pytest.fixture(scope="session")

@@ -1,4 +1,5 @@
-# Consistency checks of the ensemble; if one of them fails, the study has no checks.txt.
+# Consistency checks of the ensemble. A check that fails leaves its line in checks.txt, and the study
+# ends with an error once everything else is there.
 
 
 rule checks:
@@ -12,4 +13,17 @@ rule checks:
         "Check the consistency of the ensemble."
     shell:
         "python -m pytest -p no:cacheprovider {input.checks}"
-        " --ensemble {input.ensemble} --report {output}"
+        " --ensemble {input.ensemble} --report {output} || [ $? -eq 1 ]"  # 1: a check has failed
+
+
+rule passed:
+    input:
+        checks=rules.checks.output,
+        everything=ancient([f"{STUDY}/claims.md", *figures()]),
+    output:
+        touch(f"{STUDY}/checks.passed"),
+    message:
+        "See whether all checks have passed."
+    shell:
+        "if grep '^failed' {input.checks}; then"
+        " echo 'Checks have failed: see {input.checks}.' >&2; exit 1; fi"
