@@ -1,5 +1,5 @@
 # Consistency checks of the ensemble. A check that fails leaves its line in checks.txt, and the study
-# ends with an error once everything else is there.
+# ends with an error once everything else is there. Status 1 of pytest means that a check has failed.
 
 
 rule checks:
@@ -13,7 +13,7 @@ rule checks:
         "Check the consistency of the ensemble."
     shell:
         "python -m pytest -p no:cacheprovider {input.checks}"
-        " --ensemble {input.ensemble} --report {output} || [ $? -eq 1 ]"  # 1: a check has failed
+        " --ensemble {input.ensemble} --report {output} || [ $? -eq 1 ]"
 
 
 rule passed:
