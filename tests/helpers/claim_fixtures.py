@@ -15,7 +15,7 @@ import xarray as xr
 
 NS, PHIS = (32, 64), (0.86, 0.88, 0.90)
 KTS = (0.0, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 2.0, 10.0)
-SEEDS = 6
+SEEDS = 16
 JAMMING = 0.84
 SOUND = 3e-4
 POINT = ("n", "phi", "kt", "seed")

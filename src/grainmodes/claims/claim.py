@@ -1,14 +1,12 @@
-"""How a claim of a paper is judged: parts with a standard error, a criterion, and one verdict.
+"""How a claim is judged: parts with their uncertainty, a criterion, and one verdict.
 
 A claim is a function of an ensemble that returns an `Outcome`. The first line of its docstring is
-the statement that is printed in the table, and its paragraph `Criterion:` is the criterion, so that
-text and check are in one place. `claim` turns it into a function that returns a `Verdict`.
+the statement that is printed in the table, its paragraph `Asked of:` says which parts the claim
+must have, and its paragraph `Criterion:` is the criterion, so that text and check are in one place.
+`claim` turns it into a function that returns a `Verdict`.
 
-A part is a number with its standard error and the interval in which the claim expects it. It holds
-if it lies inside by at least two standard errors, and is contradicted if it lies outside by more
-than three; otherwise, or without an error, it is not resolved. The limit is three because a claim
-has many parts: with ten samples, one part in seventy lies that far outside by chance. A claim holds
-if all its parts hold, and is contradicted if one of them is.
+The parts are grouped by what they need in the ensemble. A claim of which a group is empty was not
+tested, whatever its other parts say, unless one of them contradicts it.
 """
 
 from __future__ import annotations
@@ -17,33 +15,35 @@ import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import wraps
+from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from grainmodes.statistics.estimates import Estimate
+from grainmodes.claims.part import (
+    CONTRADICTED,
+    HOLDS,
+    NOT_COMPARABLE,
+    NOT_RESOLVED,
+    Part,
+    by_certainty,
+    needed_by,
+    verdicts_of,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
 
-HOLDS = "holds"
-CONTRADICTED = "contradicted"
-NOT_RESOLVED = "not resolved at this size"
 NOT_TESTED = "not tested"
 
 SUMMARIES = {
-    HOLDS: ("hold", "nearest to the limit"),
-    NOT_RESOLVED: ("are not resolved", "farthest outside"),
-    CONTRADICTED: ("are contradicted", "farthest outside"),
+    HOLDS: ("hold", "least certain"),
+    NOT_RESOLVED: ("are not resolved", "least certain"),
+    NOT_COMPARABLE: ("are not comparable at this size", "least certain"),
+    CONTRADICTED: ("are contradicted", "most certain"),
 }
 """Verdict → what an explanation says about the parts that have it and about the first of them, in
 ascending severity: the verdict of a claim is the severest among its parts."""
-
-ERRORS_TO_HOLD = 2.0
-"""Number of standard errors by which a part must lie inside its interval to hold."""
-
-ERRORS_TO_CONTRADICT = 3.0
-"""Number of standard errors by which a part must lie outside its interval to contradict."""
 
 MAX_NAMED_PARTS = 4
 """Largest number of parts that an explanation lists."""
@@ -53,69 +53,39 @@ class NotTested(Exception):
     """The ensemble lacks what a claim needs; the message says what."""
 
 
-class Part(NamedTuple):
-    """One number of a claim: where it was measured, and the interval in which it is expected."""
-
-    where: str
-    estimate: Estimate
-    low: float = -np.inf
-    high: float = np.inf
-
-    @property
-    def margin(self) -> float:
-        """Distance from the nearer end of the interval; negative outside."""
-        return min(self.estimate.value - self.low, self.high - self.estimate.value)
-
-    @property
-    def verdict(self) -> str:
-        """`HOLDS`, `CONTRADICTED` or `NOT_RESOLVED`."""
-        if not np.isfinite(self.estimate).all():
-            return NOT_RESOLVED
-        if self.margin >= ERRORS_TO_HOLD * self.estimate.error:
-            return HOLDS
-        outside = -self.margin > ERRORS_TO_CONTRADICT * self.estimate.error
-        return CONTRADICTED if outside else NOT_RESOLVED
-
-
 class Outcome(NamedTuple):
-    """All parts of a claim, and a note: a sentence or two with the numbers behind them."""
+    """The parts of a claim, and a note: a sentence or two with the numbers behind them.
 
-    parts: list[Part]
-    note: str = ""
-
-
-def all_parts(kinds: dict[str, list[Part]]) -> list[Part]:
-    """The parts of a claim with several statements; every statement must have at least one.
-
-    Args:
-        kinds: what a statement needs in the ensemble → its parts.
-
-    Raises:
-        NotTested: a statement has no parts.
+    `parts`: what a part of the claim needs in the ensemble → these parts. Every part that the claim
+    must have has its entry, empty where the ensemble lacks what it needs.
     """
-    absent = [name for name, parts in kinds.items() if not parts]
-    if absent:
-        raise NotTested(" and ".join(absent))
-    return [part for parts in kinds.values() for part in parts]
+
+    parts: dict[str, list[Part]]
+    note: str = ""
 
 
 @dataclass(frozen=True)
 class Verdict:
     """A row of the table of claims.
 
-    `measured` is the number of the part that decided: if the claim holds, the one nearest to its
-    limit, otherwise the one farthest outside; NaN if the claim was not tested. `uncertainty` is its
-    standard error, and `where` says where it was measured.
+    `measured` is the number of the part that decided, of those with the verdict of the claim the
+    first that the explanation names; NaN if the claim was not tested. `low` and `high` are the ends
+    of its 95 % interval, `printed` is the number with its uncertainty, and `where` says where it
+    was measured. `needed` says what would decide a claim that is not decided.
     """
 
     claim: str
     statement: str
+    asked_of: str
     where: str
     measured: float
-    uncertainty: float
+    low: float
+    high: float
+    printed: str
     unit: str
     criterion: str
     verdict: str
+    needed: str
     explanation: str
 
 
@@ -131,43 +101,60 @@ def claim(name: str, unit: str) -> Callable[[Callable[[xr.Dataset], Outcome]], C
     """
 
     def decorate(function: Callable[[xr.Dataset], Outcome]) -> Claim:
-        statement, criterion = _statement_and_criterion(function)
+        statement = _paragraph(function, "")
+        asked_of, criterion = (_paragraph(function, head) for head in ("Asked of: ", "Criterion: "))
 
         @wraps(function)
         def judge(ensemble: xr.Dataset) -> Verdict:
-            part, verdict, explanation = _judged(function, ensemble)
-            measured = (part.where, *part.estimate, unit)
-            return Verdict(name, statement, *measured, criterion, verdict, explanation)
+            part, verdict, needed, explanation = _judged(function, ensemble)
+            number = _number(part)
+            return Verdict(
+                name, statement, asked_of, *number, unit, criterion, verdict, needed, explanation
+            )
 
         return judge
 
     return decorate
 
 
-def _statement_and_criterion(function: Callable) -> tuple[str, str]:
+def _paragraph(function: Callable, head: str) -> str:
+    """The first paragraph of the docstring that begins so, without this beginning."""
     paragraphs = [" ".join(text.split()) for text in inspect.getdoc(function).split("\n\n")]
-    criterion = next(text for text in paragraphs if text.startswith("Criterion: "))
-    return paragraphs[0], criterion.removeprefix("Criterion: ")
+    return next(text for text in paragraphs if text.startswith(head)).removeprefix(head)
 
 
-def _judged(function: Callable, ensemble: xr.Dataset) -> tuple[Part, str, str]:
+def _number(part: Part | None) -> tuple[str, float, float, float, str]:
+    if part is None:
+        return "", np.nan, np.nan, np.nan, "-"
+    measured = part.measured
+    return part.where, measured.value, *measured.interval(), str(measured)
+
+
+def _judged(function: Callable, ensemble: xr.Dataset) -> tuple[Part | None, str, str, str]:
+    """The part that decides, the verdict, what is needed for a better one, and the explanation."""
     try:
-        parts, note = function(ensemble)
-        if not parts:
-            raise NotTested("points with at least two jammed samples in the range of the claim")
+        groups, note = function(ensemble)
     except NotTested as missing:
-        no_part = Part("", Estimate(np.nan, np.nan))
-        return no_part, NOT_TESTED, f"The ensemble lacks {missing}."
-    severity = list(SUMMARIES)
-    worst = max(parts, key=lambda part: (severity.index(part.verdict), -part.margin))
-    return worst, worst.verdict, f"{_summary(parts, worst)} {note}".strip()
+        return None, NOT_TESTED, str(missing), f"The ensemble lacks {missing}."
+    parts = list(chain.from_iterable(groups.values()))
+    absent = " and ".join(need for need, group in groups.items() if not group)
+    lacking = f"The ensemble lacks {absent}." if absent else ""
+    if not parts:
+        return None, NOT_TESTED, absent, lacking
+    verdicts = verdicts_of(parts)
+    worst = max(verdicts, key=list(SUMMARIES).index)
+    alike = [part for part, found in zip(parts, verdicts, strict=True) if found == worst]
+    same = by_certainty(alike, worst)
+    verdict = NOT_TESTED if absent and worst != CONTRADICTED else worst
+    needed = absent if verdict == NOT_TESTED else needed_by(same, verdict)
+    explanation = " ".join(filter(None, (lacking, _summary(parts, same, worst), note)))
+    return same[0], verdict, needed, explanation
 
 
-def _summary(parts: list[Part], worst: Part) -> str:
-    """How many parts have the verdict of the worst one, and a list of them, the worst first."""
-    same = sorted((p for p in parts if p.verdict == worst.verdict), key=lambda part: part.margin)
-    named = "; ".join(f"{part.where}: {part.estimate}" for part in same[:MAX_NAMED_PARTS])
+def _summary(parts: list[Part], same: list[Part], verdict: str) -> str:
+    """How many parts have the verdict, and a list of them."""
+    named = "; ".join(f"{part.where}: {part.printed}" for part in same[:MAX_NAMED_PARTS])
     rest = "; ..." if len(same) > MAX_NAMED_PARTS else ""
-    verb, first = SUMMARIES[worst.verdict]
+    verb, first = SUMMARIES[verdict]
     order = f", the {first} first" if len(same) > 1 else ""
     return f"Parts that {verb}: {len(same)} of {len(parts)}{order}. {named}{rest}."

@@ -9,36 +9,40 @@ from collections.abc import Callable
 from dataclasses import asdict, fields
 from pathlib import Path
 
-import numpy as np
-
 from grainmodes.claims.claim import Verdict
 from grainmodes.runtime.atomic import replaced
-from grainmodes.statistics.rounding import value_with_error
 
 COLUMNS = [field.name for field in fields(Verdict)]
 
+HEADS = ("claim", "statement", "asked of", "criterion", "measured", "verdict", "needed")
+"""Columns of the page."""
 
-def as_text(verdicts: list[Verdict]) -> str:
-    """One line per claim: its name, verdict, measured number and statement."""
+
+def as_text(verdicts: list[Verdict], remark: str = "") -> str:
+    """One line per claim: its name, verdict, measured number, statement and what is needed."""
     rows = [(v.claim, v.verdict, _measured(v), v.statement) for v in verdicts]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines = ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
-    return "\n".join([*lines, "", _counts(verdicts)]) + "\n"
+    lines = [
+        "  ".join(map(str.ljust, row, widths)).rstrip() + _needed(verdict)
+        for row, verdict in zip(rows, verdicts, strict=True)
+    ]
+    return "\n".join([*lines, "", _summary(verdicts, remark)]) + "\n"
 
 
-def as_markdown(verdicts: list[Verdict]) -> str:
+def as_markdown(verdicts: list[Verdict], remark: str = "") -> str:
     """The table, and below it the explanation of every verdict."""
-    head = (
-        "| claim | statement | measured | criterion | verdict |\n| --- | --- | --- | --- | --- |\n"
-    )
-    rows = [(v.claim, v.statement, _named(v), v.criterion, v.verdict) for v in verdicts]
+    head = f"| {' | '.join(HEADS)} |\n| {' | '.join('---' for _ in HEADS)} |\n"
+    rows = [
+        (v.claim, v.statement, v.asked_of, v.criterion, _named(v), v.verdict, v.needed or "-")
+        for v in verdicts
+    ]
     table = "".join(f"| {' | '.join(map(_cell, row))} |\n" for row in rows)
     found = "".join(f"\n**{v.claim}, {v.verdict}.** {_cell(v.explanation)}\n" for v in verdicts)
-    return f"# Claims of papers A, B and C\n\n{_counts(verdicts)}\n\n{head}{table}{found}"
+    return f"# Claims, checked\n\n{_summary(verdicts, remark)}\n\n{head}{table}{found}"
 
 
-def as_csv(verdicts: list[Verdict]) -> str:
-    """One row per claim, with the columns `COLUMNS`."""
+def as_csv(verdicts: list[Verdict], _remark: str = "") -> str:
+    """One row per claim, with the columns `COLUMNS`; a table has no place for the remark."""
     out = io.StringIO()
     writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
     writer.writeheader()
@@ -46,11 +50,11 @@ def as_csv(verdicts: list[Verdict]) -> str:
     return out.getvalue()
 
 
-FORMS: dict[str, Callable[[list[Verdict]], str]] = {".md": as_markdown, ".csv": as_csv}
+FORMS: dict[str, Callable[[list[Verdict], str], str]] = {".md": as_markdown, ".csv": as_csv}
 """Suffix of a file → function that returns its content."""
 
 
-def form(path: Path) -> Callable[[list[Verdict]], str]:
+def form(path: Path) -> Callable[[list[Verdict], str], str]:
     """The function that returns the content of a file, by its suffix.
 
     Raises:
@@ -61,23 +65,28 @@ def form(path: Path) -> Callable[[list[Verdict]], str]:
     return FORMS[path.suffix]
 
 
-def write(verdicts: list[Verdict], path: Path) -> None:
+def write(verdicts: list[Verdict], path: Path, remark: str = "") -> None:
     """Write a page or a table, all of it or nothing.
+
+    Args:
+        remark: a sentence on the ensemble, which stands beside the numbers of verdicts.
 
     Raises:
         ValueError: as `form`.
         OSError: the file cannot be written.
     """
-    content = form(path)(verdicts)
+    content = form(path)(verdicts, remark)
     with replaced(path) as partial:
         partial.write_text(content, encoding="utf-8")
 
 
 def _measured(verdict: Verdict) -> str:
-    if not np.isfinite(verdict.measured):
-        return "-"
-    unit = "" if verdict.unit == "1" else f" {verdict.unit}"
-    return f"{value_with_error(verdict.measured, verdict.uncertainty)}{unit}"
+    unit = "" if verdict.unit == "1" or verdict.printed == "-" else f" {verdict.unit}"
+    return f"{verdict.printed}{unit}"
+
+
+def _needed(verdict: Verdict) -> str:
+    return f" (needed: {verdict.needed})" if verdict.needed else ""
 
 
 def _named(verdict: Verdict) -> str:
@@ -88,6 +97,7 @@ def _cell(text: str) -> str:
     return text.replace("|", "\\|")
 
 
-def _counts(verdicts: list[Verdict]) -> str:
+def _summary(verdicts: list[Verdict], remark: str) -> str:
     counts = Counter(verdict.verdict for verdict in verdicts)
-    return ", ".join(f"{count} {name}" for name, count in counts.items()) + "."
+    listed = ", ".join(f"{count} {name}" for name, count in counts.items())
+    return f"{listed}. {remark}".strip()

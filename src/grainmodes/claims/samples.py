@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from grainmodes.claims.claim import NotTested
+from grainmodes.claims.part import MIN_SAMPLES
 
 if TYPE_CHECKING:
     import xarray as xr
 
-MIN_SAMPLES = 2
-"""Number of samples below which a point has no standard error and is left out."""
+FEW_SAMPLES = f"No claim is asked of points with fewer than {MIN_SAMPLES} jammed samples:"
 
 SAMPLE_DIMENSIONS = ("phi", "kt", "seed")
 """Dimensions of a number per sample, at one N."""
@@ -48,7 +48,7 @@ class Samples:
     def points(
         self, name: str, low: float = 0.0, high: float = np.inf
     ) -> list[tuple[float, float]]:
-        """The (phi, kappa) with samples of a variable and kappa in [low, high], ascending."""
+        """The (phi, kappa) with four samples of a variable and kappa in [low, high], ascending."""
         rows = self._rows(name)
         known = rows.notnull().any([axis for axis in rows.dims if axis not in SAMPLE_DIMENSIONS])
         enough = (known & self._used()).sum("seed").transpose("phi", "kt").to_numpy() >= MIN_SAMPLES
@@ -114,6 +114,16 @@ def samples_by_size(ensemble: xr.Dataset, *names: str) -> list[Samples]:
     if not found:
         raise NotTested(f"jammed samples with {', '.join(names)}")
     return found
+
+
+def points_left_out(ensemble: xr.Dataset) -> str:
+    """A sentence on the points at which fewer than four samples are jammed; empty if none is."""
+    jammed = ((ensemble["converged"] == 1) & (ensemble["jammed"] == 1)).sum("seed")
+    computed = ensemble["converged"].notnull().any("seed")
+    few = jammed.where(computed & (jammed < MIN_SAMPLES)).max("kt")
+    places = few.to_series().dropna().astype(int)
+    listed = ", ".join(f"N = {n}, φ = {phi:g} ({count})" for (n, phi), count in places.items())
+    return f"{FEW_SAMPLES} {listed}." if listed else ""
 
 
 def label(phi: float | None = None, kappa: float | None = None) -> str:

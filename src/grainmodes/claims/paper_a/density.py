@@ -20,8 +20,9 @@ from grainmodes.claims.bands import (
     modes,
     separable,
 )
-from grainmodes.claims.claim import NotTested, Outcome, Part, claim
+from grainmodes.claims.claim import NotTested, Outcome, claim
 from grainmodes.claims.paper_a.ranges import WEAK_KAPPA
+from grainmodes.claims.part import Part
 from grainmodes.claims.samples import (
     ABOVE_ZERO,
     Samples,
@@ -30,7 +31,7 @@ from grainmodes.claims.samples import (
     samples_by_size,
 )
 from grainmodes.statistics import averages
-from grainmodes.statistics.estimates import Estimate, mean
+from grainmodes.statistics.estimates import Estimate, difference_of_means, mean
 
 MAX_LOCALISED_GRAINS = 2.0
 """N p below which a mode counts as localised on one grain."""
@@ -43,6 +44,8 @@ def localised_rattlers(ensemble) -> Outcome:
     Both frequencies are ω_R / 10. The modes of rattlers are those that a spectrum has only if its
     rattlers are kept. The measured number is the share of them with N p < 2 and ω within half a
     decade of ω_R / 10, for all φ of a seed together.
+
+    Asked of: every point of the ensemble.
 
     Criterion: More than one half of the modes of rattlers have N p < 2 and ω near ω_R / 10.
     """
@@ -57,7 +60,7 @@ def localised_rattlers(ensemble) -> Outcome:
         parts.append(Part(f"share at {label(kappa=kappa)}", mean(share), 0.5))
         zero, added = zero + vanishing.sum(), added + of_rattlers.sum()
     note = f"Of {added:.0f} modes of rattlers, {zero:.0f} are zero modes, whose p is not defined."
-    return Outcome(parts, note)
+    return Outcome({"rattlers": parts}, note)
 
 
 def _rattler_modes(samples: Samples, phi: float, kappa: float) -> np.ndarray:
@@ -80,6 +83,8 @@ def independent_of_size(ensemble) -> Outcome:
     These are the differences of log ω between the smallest and the largest N at nine quantiles
     (0.1 ... 0.9) of each band, at the k_T/k_N closest to 1e-8.
 
+    Asked of: every point of the ensemble.
+
     Criterion: The differences of log ω at nine quantiles of each band are within ±5 %.
     """
     by_size = samples_by_size(separable(ensemble), SEPARABLE)
@@ -95,14 +100,15 @@ def independent_of_size(ensemble) -> Outcome:
         for band in ("rotational", "translational")
         for quantile, difference in zip(QUANTILES, _differences(small, large, band), strict=True)
     ]
-    return Outcome(parts, f"The systems have N = {by_size[0].n} and N = {by_size[-1].n}.")
+    return Outcome(
+        {"two N": parts}, f"The systems have N = {by_size[0].n} and N = {by_size[-1].n}."
+    )
 
 
 def _differences(small: Modes, large: Modes, band: str) -> list[Estimate]:
     """log omega of the large minus that of the small system at `QUANTILES`; they share no seed."""
     pairs = zip(*(log_quantiles(getattr(size, band)).T for size in (small, large)), strict=True)
-    estimates = [(mean(a), mean(b)) for a, b in pairs]
-    return [Estimate(b.value - a.value, np.hypot(a.error, b.error)) for a, b in estimates]
+    return [difference_of_means(*pair) for pair in pairs]
 
 
 @claim("A15", unit="decades")
@@ -113,6 +119,8 @@ def towards_jamming(ensemble) -> Outcome:
     lowest φ. The width of the translational band is log10 of ω at its quantile 0.9 over ω at 0.1;
     the measured number is the width at the lowest φ minus that at the highest. Both are paired by
     seed, at the smallest k_T.
+
+    Asked of: every point of the ensemble.
 
     Criterion: The median rotational ω falls, and the width of the translational band grows.
     """
@@ -126,7 +134,7 @@ def towards_jamming(ensemble) -> Outcome:
     wider = mean(_width(low.translational) - _width(high.translational))
     where = f"φ = {phis[0]:g} and {phis[-1]:g}, {label(kappa=kappa)}"
     return Outcome(
-        [Part(f"band, {where}", down, 0.0), Part(f"plateau, {where}", wider, 0.0)],
+        {"two φ": [Part(f"band, {where}", down, 0.0), Part(f"plateau, {where}", wider, 0.0)]},
         f"The rotational band moves by {down} and the plateau widens by {wider} decades.",
     )
 

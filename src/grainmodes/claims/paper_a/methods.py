@@ -12,7 +12,8 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.claims.bands import spectrum_at
-from grainmodes.claims.claim import NotTested, Outcome, Part, claim
+from grainmodes.claims.claim import NotTested, Outcome, claim
+from grainmodes.claims.part import Part
 from grainmodes.claims.samples import Samples, best_sampled, label
 from grainmodes.statistics import averages
 from grainmodes.statistics.binning import occupation
@@ -35,6 +36,8 @@ def hessian_density(ensemble) -> Outcome:
     This is the sum over bins of |counts of D - counts of D_H| over the sum of the counts of D, with
     counts averaged over the samples. If there are no counts of D_H, it is max|H - J| / max|J|.
 
+    Asked of: every point of the ensemble.
+
     Criterion: The area between D and D_H, or else max|H - J| / max|J|, is below 5 %.
     """
     if "bin_count_hessian" in ensemble:
@@ -46,7 +49,9 @@ def hessian_density(ensemble) -> Outcome:
         Part(label(*p), mean(samples.values("hessian_difference", *p)), high=DENSITY_TOLERANCE)
         for p in samples.points("hessian_difference")
     ]
-    return Outcome(parts, "The matrices are compared, with tangent stiffnesses in H.")
+    return Outcome(
+        {"the Hessian": parts}, "The matrices are compared, with tangent stiffnesses in H."
+    )
 
 
 def _densities(ensemble) -> Outcome:
@@ -57,10 +62,12 @@ def _densities(ensemble) -> Outcome:
         for p in points
     ]
     if "bin_count_hessian_printed" not in ensemble:
-        return Outcome(parts)
+        return Outcome({"the Hessian": parts})
     printed = {p: _area(samples, "bin_count_hessian_printed", p) for p in points}
     listed = ", ".join(f"{area} at {label(*point)}" for point, area in printed.items())
-    return Outcome(parts, f"With k_N and k_T as printed in (H2) the area is {listed}.")
+    return Outcome(
+        {"the Hessian": parts}, f"With k_N and k_T as printed in (H2) the area is {listed}."
+    )
 
 
 def _area(samples: Samples, name: str, point: tuple) -> Estimate:
@@ -93,6 +100,8 @@ def verlet_orders(ensemble) -> Outcome:
 
     These are the measured orders at every point, averaged over samples.
 
+    Asked of: every point of the ensemble.
+
     Criterion: The order lies within 1.8 ... 2.2 in q and within 0.8 ... 1.2 in q̇.
     """
     names = {kind: f"verlet_order_{kind}" for kind in ORDERS}
@@ -107,7 +116,7 @@ def verlet_orders(ensemble) -> Outcome:
         for kind, name in names.items()
         for p in samples.points(name)
     ]
-    return Outcome(parts)
+    return Outcome({"orders": parts})
 
 
 @claim("A19", unit="1")
@@ -117,6 +126,8 @@ def complex_pairs_with_friction(ensemble) -> Outcome:
     This is the share of the jammed states compressed with friction that have at least one pair, for
     all points of a seed with k_T/k_N ≥ 0.1 together. A does not say at which k_T pairs exist, and
     there are none at weak friction.
+
+    Asked of: every point of the ensemble.
 
     Criterion: More than one half of the states with k_T/k_N ≥ 0.1 have at least one pair.
     """
@@ -134,4 +145,4 @@ def complex_pairs_with_friction(ensemble) -> Outcome:
         share = np.nansum(having, axis=0) / known.sum(axis=0)
     most = np.nanmax(np.where(known, pairs, 0))
     note = f"{np.nansum(having):.0f} of {known.sum()} states have pairs, at most {most:.0f} each."
-    return Outcome([Part("all points", mean(share), 0.5)], note)
+    return Outcome({"states with friction": [Part("all points", mean(share), 0.5)]}, note)

@@ -12,7 +12,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import Outcome, Part, all_parts, claim
+from grainmodes.claims.claim import Outcome, claim
+from grainmodes.claims.part import Part
 from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled, label
 from grainmodes.statistics.estimates import Estimate, crossing, mean, relative_difference
 
@@ -29,6 +30,8 @@ def nonaffine_sign_change(ensemble) -> Outcome:
     growth is the relative difference of |G_NA| at the highest and the lowest φ, at the smallest and
     at the largest k_T, paired by seed.
 
+    Asked of: every point of the ensemble.
+
     Criterion: The crossing lies within 1.6 ... 2.5 at every φ, and |G_NA| is larger at the highest
     φ than at the lowest.
     """
@@ -43,7 +46,7 @@ def nonaffine_sign_change(ensemble) -> Outcome:
             _growth(samples, kappa, phis) for kappa in _ends(samples, phis) if len(phis) > 1
         ],
     }
-    return Outcome(all_parts(parts), f"{_crossings(zeros)} {_loading(samples)}")
+    return Outcome(parts, f"{_crossings(zeros)} {_loading(samples)}")
 
 
 def _ends(samples: Samples, phis: list[float]) -> list[float]:
@@ -76,6 +79,8 @@ def _crossings(zeros: dict[float, Estimate]) -> str:
 def _loading(samples: Samples) -> str:
     """A sentence on the sign of G_NA if the step loads the tangential springs."""
     points = samples.points("g_nonaffine_loaded", ABOVE_ZERO)
+    if not points:
+        return ""
     loaded = np.array([samples.values("g_nonaffine_loaded", *point) for point in points])
     (phi, kappa), last = points[-1], samples.values("g_nonaffine", *points[-1])
     return (

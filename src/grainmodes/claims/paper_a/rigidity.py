@@ -13,8 +13,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import NotTested, Outcome, Part, claim
+from grainmodes.claims.claim import NotTested, Outcome, claim
 from grainmodes.claims.paper_a.ranges import LARGE_KAPPA, SMALL_KAPPA, TOLERANCE
+from grainmodes.claims.part import Part
 from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled, label
 from grainmodes.statistics.estimates import Estimate, mean, relative_difference
 
@@ -32,6 +33,8 @@ def not_proportional_to_distance(ensemble) -> Outcome:
     The exponent β of G ∝ (φ - φ_c)^β is the slope of log G of each seed, with φ_c of this seed. The
     measured number is |β - 1|.
 
+    Asked of: every point of the ensemble.
+
     Criterion: |β - 1| is above 0.1 at every k_T/k_N ≥ 1.
     """
     samples = best_sampled(ensemble, "g", "phi_jamming")
@@ -40,12 +43,12 @@ def not_proportional_to_distance(ensemble) -> Outcome:
         raise NotTested(f"{MIN_AREA_FRACTIONS} area fractions with jammed samples")
     exponents = {kappa: _exponent(samples, kappa) for kappa in enough}
     parts = [
-        Part(label(kappa=kappa), Estimate(abs(beta.value - 1.0), beta.error), 0.1)
+        Part(label(kappa=kappa), beta, 0.9, 1.1, outside=True)
         for kappa, beta in exponents.items()
         if kappa >= LARGE_KAPPA
     ]
     listed = ", ".join(f"{beta} at κ = {kappa:g}" for kappa, beta in exponents.items())
-    return Outcome(parts, f"The exponent β is {listed}.")
+    return Outcome({"k_T/k_N ≥ 1": parts}, f"The exponent β is {listed}.")
 
 
 def _exponent(samples: Samples, kappa: float) -> Estimate:
@@ -70,6 +73,8 @@ def flat_at_small_stiffness(ensemble) -> Outcome:
     This is the relative difference of G to that at the smallest k_T > 0, paired by seed, at every
     φ.
 
+    Asked of: every point of the ensemble.
+
     Criterion: The relative difference to G at the smallest k_T > 0 is within ±1 %.
     """
     samples = best_sampled(ensemble, "g")
@@ -83,7 +88,8 @@ def flat_at_small_stiffness(ensemble) -> Outcome:
         if others:
             errors[phi] = mean(reference).error / np.nanmean(reference)
     listed = ", ".join(f"{error:.2g} at {label(phi)}" for phi, error in errors.items())
-    return Outcome(parts, f"For comparison, the relative standard error of G itself is {listed}.")
+    note = f"For comparison, the relative standard error of G itself is {listed}."
+    return Outcome({"two k_T/k_N ≤ 1e-4": parts}, note)
 
 
 @claim("A4", unit="1")
@@ -92,6 +98,8 @@ def frictionless_limit(ensemble) -> Outcome:
 
     This is the relative difference of G at the smallest k_T > 0 and at k_T = 0, paired by seed, at
     every φ.
+
+    Asked of: every point of the ensemble.
 
     Criterion: The relative difference is within ±0.1 % at the smallest k_T/k_N ≤ 1e-6.
     """
@@ -116,7 +124,9 @@ def frictionless_limit(ensemble) -> Outcome:
         k: _to_frictionless(samples, phi, k) for k in samples.kappas("g", phi, ABOVE_ZERO, 1.0)
     }
     listed = ", ".join(f"{value} at κ = {kappa:g}" for kappa, value in approach.items())
-    return Outcome(parts, f"The difference at {label(phi)} is {listed}.")
+    return Outcome(
+        {"k_T = 0 and a k_T/k_N ≤ 1e-6": parts}, f"The difference at {label(phi)} is {listed}."
+    )
 
 
 def _to_frictionless(samples: Samples, phi: float, kappa: float) -> Estimate:
@@ -130,6 +140,8 @@ def no_factorisation(ensemble) -> Outcome:
     This is the difference of log[G(κ)/G(0)] at the lowest and at the highest φ, paired by seed; for
     a product it is 0. A seed with G ≤ 0, which occurs in small systems, is left out.
 
+    Asked of: every point of the ensemble.
+
     Criterion: log[G(κ)/G(0)] differs by more than 0.05 between the lowest and the highest φ,
     at every k_T/k_N ≥ 1.
     """
@@ -140,9 +152,8 @@ def no_factorisation(ensemble) -> Outcome:
     parts, ends = [], (phis[0], phis[-1])
     for kappa in samples.common_kappas("g", ends, LARGE_KAPPA):
         low, high = (_log_gain(samples, phi, kappa) for phi in ends)
-        change = mean(low - high)
-        parts.append(Part(label(kappa=kappa), Estimate(abs(change.value), change.error), 0.05))
-    return Outcome(parts, _gains(samples, ends))
+        parts.append(Part(label(kappa=kappa), mean(low - high), -0.05, 0.05, outside=True))
+    return Outcome({"k_T/k_N ≥ 1 at two area fractions": parts}, _gains(samples, ends))
 
 
 def _log_gain(samples: Samples, phi: float, kappa: float) -> np.ndarray:
@@ -154,5 +165,5 @@ def _gains(samples: Samples, phis: tuple[float, float]) -> str:
     """G(κ)/G(0) at the largest κ, at two area fractions."""
     kappa = samples.kappas("g", phis[-1])[-1]
     gains = {phi: _to_frictionless(samples, phi, kappa) for phi in phis}
-    listed = (f"{Estimate(g.value + 1, g.error)} at {label(phi)}" for phi, g in gains.items())
+    listed = (f"{g._replace(value=g.value + 1)} at {label(phi)}" for phi, g in gains.items())
     return f"G(κ = {kappa:g}) / G(0) is {' and '.join(listed)}."

@@ -14,8 +14,9 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.claims.bands import Modes, per_sample
-from grainmodes.claims.claim import Outcome, Part, all_parts, claim
+from grainmodes.claims.claim import Outcome, claim
 from grainmodes.claims.paper_a.spectra import REGION_BOUNDARY, friction_spectra, within
+from grainmodes.claims.part import Part
 from grainmodes.claims.samples import ABOVE_ZERO, label
 from grainmodes.statistics import averages
 from grainmodes.statistics.estimates import Estimate, jackknife, mean, relative_difference
@@ -38,6 +39,8 @@ def peak_and_collapse(ensemble) -> Outcome:
     measured by the area between ω_R D and that of the smallest k_T, over the area below the latter,
     in nine bins.
 
+    Asked of: every point of the ensemble.
+
     Criterion: The peak lies at ω/ω_R = 0.5 ... 2, and the area between two curves is below 0.1.
     """
     _, phi, spectra = friction_spectra(ensemble)
@@ -58,7 +61,7 @@ def peak_and_collapse(ensemble) -> Outcome:
             for k in sorted(counts)[1:]
         ],
     }
-    return Outcome(all_parts(parts), _peaks_and_chi_squared(peaks, counts))
+    return Outcome(parts, _peaks_and_chi_squared(peaks, counts))
 
 
 def _peak(scaled: np.ndarray) -> np.ndarray:
@@ -86,6 +89,8 @@ def _area_between(counts: np.ndarray, reference: np.ndarray) -> Estimate:
 
 
 def _peaks_and_chi_squared(peaks: dict[float, Estimate], counts: dict[float, np.ndarray]) -> str:
+    if not counts:
+        return ""
     first, *others = counts
     chi = (f"{_chi_squared(counts[k], counts[first]):.2g} at κ = {k:g}" for k in others)
     listed = ", ".join(f"{peak} at κ = {kappa:g}" for kappa, peak in peaks.items())
@@ -109,6 +114,8 @@ def area_of_rotational_band(ensemble) -> Outcome:
     This is the relative difference of the number of rotational modes (ψ^R > 1/2) to that at the
     smallest k_T, paired by seed, for k_T/k_N ≤ 0.01, where A scales D.
 
+    Asked of: every point of the ensemble.
+
     Criterion: The relative difference of the number of rotational modes is within ±5 %.
     """
     samples, phi, spectra = friction_spectra(ensemble)
@@ -119,7 +126,9 @@ def area_of_rotational_band(ensemble) -> Outcome:
         for kappa in scaled[1:]
     ]
     shares = ", ".join(f"{mean(area / (3 * samples.n))} at κ = {k:g}" for k, area in areas.items())
-    return Outcome(parts, f"The integral ∫ D dω over the rotational modes is {shares}.")
+    return Outcome(
+        {"two k_T/k_N ≤ 0.01": parts}, f"The integral ∫ D dω over the rotational modes is {shares}."
+    )
 
 
 def _rotational_count(found: Modes) -> np.ndarray:

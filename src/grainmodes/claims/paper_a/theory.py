@@ -14,8 +14,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import Outcome, Part, claim
+from grainmodes.claims.claim import Outcome, claim
 from grainmodes.claims.paper_a.ranges import SMALL_KAPPA, TOLERANCE
+from grainmodes.claims.part import Part
 from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled, label
 from grainmodes.statistics.estimates import Estimate, relative_difference
 
@@ -25,6 +26,8 @@ def theory_is_simulation(ensemble) -> Outcome:
     """The rigidity G of the theory equals that of the simulation at all φ and k_T/k_N (Fig. 4).
 
     This is the relative difference of g_simulated and g, paired by seed, at every point.
+
+    Asked of: every point of the ensemble.
 
     Criterion: The relative difference of the two is within ±1 % at every point.
     """
@@ -38,7 +41,7 @@ def theory_is_simulation(ensemble) -> Outcome:
         )
         for point in samples.points("g_simulated")
     ]
-    return Outcome(parts, _contact_changes(samples))
+    return Outcome({"a simulated rigidity": parts}, _contact_changes(samples))
 
 
 def _relative(samples: Samples, name: str, reference: str, phi: float, kappa: float) -> Estimate:
@@ -62,6 +65,8 @@ def independent_of_strain(ensemble) -> Outcome:
     This is the relative difference of G from forward steps to that of the smallest step, paired by
     seed, at every point.
 
+    Asked of: every point of the ensemble.
+
     Criterion: The relative difference to G at the smallest step is within ±1 % at every point.
     """
     samples = best_sampled(ensemble, "g_forward_by_strain", "diagnostic_strain")
@@ -79,7 +84,7 @@ def independent_of_strain(ensemble) -> Outcome:
                     TOLERANCE,
                 )
             )
-    return Outcome(parts)
+    return Outcome({"steps of several sizes": parts})
 
 
 @claim("A17", unit="1")
@@ -88,6 +93,8 @@ def translational_modes_suffice(ensemble) -> Outcome:
 
     This is the relative difference of the sum over the modes with ψ^T > 1/2 and g, paired by seed,
     at every point with k_T/k_N ≤ 1e-4.
+
+    Asked of: every point of the ensemble.
 
     Criterion: The relative difference of their sum and G is within ±1 % at k_T/k_N ≤ 1e-4.
     """
@@ -104,4 +111,5 @@ def translational_modes_suffice(ensemble) -> Outcome:
     above = samples.points("g_translational", 2.0 * SMALL_KAPPA)
     differences = {p: _relative(samples, "g_translational", "g", *p) for p in above}
     listed = ", ".join(f"{value} at {label(*point)}" for point, value in differences.items())
-    return Outcome(parts, f"At larger k_T/k_N the difference is {listed}." if listed else "")
+    note = f"At larger k_T/k_N the difference is {listed}." if listed else ""
+    return Outcome({"k_T/k_N ≤ 1e-4": parts}, note)

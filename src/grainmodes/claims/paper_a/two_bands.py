@@ -24,9 +24,10 @@ from grainmodes.claims.bands import (
     per_sample,
     separable,
 )
-from grainmodes.claims.claim import NotTested, Outcome, Part, all_parts, claim
+from grainmodes.claims.claim import NotTested, Outcome, claim
 from grainmodes.claims.paper_a.ranges import WEAK_KAPPA
 from grainmodes.claims.paper_a.spectra import REGION_BOUNDARY, friction_spectra, within
+from grainmodes.claims.part import Part
 from grainmodes.claims.samples import ABOVE_ZERO, best_sampled, label
 from grainmodes.statistics.estimates import Estimate, mean
 
@@ -43,6 +44,8 @@ def pure_regions(ensemble) -> Outcome:
 
     These are the mean of ψ^R over the modes with ω < 2 ω_R, and of ψ^T over those with ω > 2 ω_R.
 
+    Asked of: every point of the ensemble.
+
     Criterion: The mean ψ^R of Region I and the mean ψ^T of Region II are above 0.9.
     """
     _, phi, spectra = friction_spectra(ensemble)
@@ -56,7 +59,7 @@ def pure_regions(ensemble) -> Outcome:
         )
         for kappa, found in within(spectra, ABOVE_ZERO, 0.5).items()
     ]
-    return Outcome(parts)
+    return Outcome({"spectra": parts})
 
 
 def _purity(found: Modes, kappa: float, rotational: bool) -> Estimate:
@@ -73,6 +76,8 @@ def gap_overlap_merger(ensemble) -> Outcome:
     The gap is log10 of the lowest translational ω over the highest rotational ω of a sample, in
     decades; it is negative where the bands overlap. From k_T/k_N = 1 on the measured number is the
     share of rotational modes above the lowest translational one.
+
+    Asked of: every point of the ensemble.
 
     Criterion: The gap is above 0 in 1e-10 ... 1e-8 and below 0 in 1e-6 ... 1e-2, and the share is
     above 0.9 from 1 on.
@@ -91,7 +96,7 @@ def gap_overlap_merger(ensemble) -> Outcome:
             for k, found in within(spectra, *MERGED_RANGE).items()
         ],
     }
-    return Outcome(all_parts(parts), _gap_and_size(samples.n, within(gaps, *OVERLAP_RANGE)))
+    return Outcome(parts, _gap_and_size(samples.n, within(gaps, *OVERLAP_RANGE)))
 
 
 def _gap(found: Modes) -> Estimate:
@@ -118,6 +123,8 @@ def frictionless_band(ensemble) -> Outcome:
     This is the mean over the modes of |ω/ω' - 1| of the translational ω and the ω' at k_T = 0 with
     the same rank in the sample, or at 50 quantiles of the bands if the numbers of modes differ.
 
+    Asked of: every point of the ensemble.
+
     Criterion: The mean relative shift of ω is below 1 %.
     """
     samples = best_sampled(separable(ensemble), SEPARABLE)
@@ -136,7 +143,7 @@ def frictionless_band(ensemble) -> Outcome:
     counts = [np.isfinite(band).sum(axis=1).mean() for band in (with_friction, without)]
     shift = Part(label(phi, kappa), mean(per_sample(_shift, with_friction, without)), high=0.01)
     note = f"There are {counts[0]:.1f} translational modes, and {counts[1]:.1f} without friction."
-    return Outcome([shift], note)
+    return Outcome({"k_T/k_N ≤ 1e-8": [shift]}, note)
 
 
 def _shift(band: np.ndarray, reference: np.ndarray) -> float:

@@ -14,8 +14,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import NotTested, Outcome, Part, claim
+from grainmodes.claims.claim import Outcome, claim
 from grainmodes.claims.paper_b.sheared import TOLERANCE, harmonic, over_samples, sheared
+from grainmodes.claims.part import Part
 from grainmodes.claims.samples import label
 from grainmodes.ensemble.curves import Approach, Curve
 from grainmodes.statistics.estimates import mean
@@ -46,6 +47,8 @@ def jump_without_precursor(ensemble) -> Outcome:
     The jumps are the share of the events in which λ_min changes by more than ten times the change
     that its trend gives for the same step.
 
+    Asked of: every point with events.
+
     Criterion: λ_min changes by less than 5 % before an event, and jumps in more than 90 % of
     events.
     """
@@ -59,14 +62,11 @@ def jump_without_precursor(ensemble) -> Outcome:
             f"At {where} the relative change of λ_min in an event is {size}; before "
             f"{(changes < -MAX_TREND).sum()} of {len(changes)} events it falls by more than 5 %."
         )
-    return Outcome(_measured(parts, "λ_min of states before events"), " ".join(notes))
+    return Outcome({"λ_min of states before events": _measured(parts)}, " ".join(notes))
 
 
-def _measured(parts: list[Part], needed: str) -> list[Part]:
-    known = [part for part in parts if np.isfinite(part.estimate.value)]
-    if not known:
-        raise NotTested(needed)
-    return known
+def _measured(parts: list[Part]) -> list[Part]:
+    return [part for part in parts if np.isfinite(part.measured.value)]
 
 
 def _approaches(curve: Curve, min_states: int) -> list[Approach]:
@@ -109,13 +109,15 @@ def no_singularity(ensemble) -> Outcome:
     g of the states before an event is fitted by a + b (γ_c - γ) + A (γ_c - γ)^(-1/2). The measured
     number is the last term at the last of these states, over the mean |g| of the sample.
 
+    Asked of: every point with events that five states lead up to.
+
     Criterion: The singular term is within ±1 % of the mean |g|.
     """
     parts = [
         Part(where, over_samples(curves, _singular), -TOLERANCE, TOLERANCE)
         for where, curves in sheared(ensemble, "curve_g_xy")
     ]
-    return Outcome(_measured(parts, f"events with {MIN_STATES} states before them"))
+    return Outcome({f"events with {MIN_STATES} states before them": _measured(parts)})
 
 
 def _singular(curve: Curve) -> float:
@@ -139,6 +141,8 @@ def quadrupole_of_rotations(ensemble) -> Outcome:
     p_m is |Σ Δℓ exp(i m ϑ)|² / (Σ |Δℓ|)² around the grain that moves farthest, averaged over the
     events. If Δℓ is proportional to cos 2ϑ, p_2 is 0.62.
 
+    Asked of: every point with events.
+
     Criterion: p_2 is above 0.31, half of its value for cos 2ϑ.
     """
     samples = harmonic(ensemble, "event_quadrupole")
@@ -148,7 +152,7 @@ def quadrupole_of_rotations(ensemble) -> Outcome:
         parts.append(Part(label(*point), mean(quadrupole), low=0.5 * PURE_QUADRUPOLE))
         excess = mean(quadrupole - others)
         notes.append(f"At {label(*point)} p_2 exceeds the mean of p_1, p_3 and p_4 by {excess}.")
-    return Outcome(_measured(parts, "events"), " ".join(notes))
+    return Outcome({"events": _measured(parts)}, " ".join(notes))
 
 
 def _by_sample(values: np.ndarray) -> np.ndarray:
@@ -163,6 +167,8 @@ def contacts_at_events(ensemble) -> Outcome:
 
     This is the share of the events in which a contact opened, or closed, or opened and closed again
     with its spring unloaded.
+
+    Asked of: every point with events.
 
     Criterion: A contact opens or closes in more than 90 % of the events.
     """
@@ -182,7 +188,7 @@ def contacts_at_events(ensemble) -> Outcome:
             f"{closed} closed and {again} did both; the share of the events of a sample with the "
             f"same network before and after is {mean(1.0 - _share(lasting))}."
         )
-    return Outcome(_measured(parts, "events"), " ".join(notes))
+    return Outcome({"events": _measured(parts)}, " ".join(notes))
 
 
 def _share(happened: np.ndarray) -> np.ndarray:

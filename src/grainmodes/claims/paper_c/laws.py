@@ -14,7 +14,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainmodes.claims.claim import NotTested, Outcome, Part, claim
+from grainmodes.claims.claim import NotTested, Outcome, claim
+from grainmodes.claims.part import Part
 from grainmodes.claims.samples import Samples, best_sampled, label
 from grainmodes.ensemble import normal_law
 from grainmodes.statistics.estimates import Estimate, mean
@@ -39,6 +40,8 @@ def smoothed_is_unstable(ensemble) -> Outcome:
     These are the share of the sheared samples in which complex pairs are born, and the growth rate
     of released states over ω_i, averaged over the states of a sample.
 
+    Asked of: every point at which laws are compared.
+
     Criterion: Pairs are born in more than one half of the samples, and released states grow at
     0.9 ... 1.1 ω_i.
     """
@@ -49,7 +52,7 @@ def smoothed_is_unstable(ensemble) -> Outcome:
         parts.append(Part(f"born, {label(*point)}", mean(_born(pairs)), MIN_SHARE))
         parts.append(Part(f"growth, {label(*point)}", _growth(samples, point), *AGREEMENT_RANGE))
         notes.append(f"A state has {mean(np.nanmean(pairs, axis=1))} pairs at {label(*point)}.")
-    return Outcome(_resolved(parts), " ".join(notes))
+    return Outcome({"sheared samples": _resolved(parts)}, " ".join(notes))
 
 
 @claim("C9", unit="1")
@@ -59,6 +62,8 @@ def sharp_is_stable(ensemble) -> Outcome:
     These are the share of the states in which J has complex pairs if springs at their threshold
     stick, and the largest growth rate over ω_i among the released states of a sample that have
     pairs if these springs slip.
+
+    Asked of: every point at which laws are compared.
 
     Criterion: Fewer than 2 % of the states have pairs if springs stick, and released states grow at
     less than 0.1 ω_i.
@@ -82,7 +87,7 @@ def sharp_is_stable(ensemble) -> Outcome:
             f"springs slip; of {np.isfinite(ratio).sum()} released states "
             f"{(ratio > MAX_GROWTH).sum()} grow."
         )
-    return Outcome(_resolved(parts), " ".join(notes))
+    return Outcome({"sheared samples": _resolved(parts)}, " ".join(notes))
 
 
 def _harmonic(ensemble, law: str) -> tuple[Samples, list[tuple[float, float]]]:
@@ -130,4 +135,4 @@ def _growth(samples: Samples, point: tuple[float, float]) -> Estimate:
 
 def _resolved(parts: list[Part]) -> list[Part]:
     """The parts with a number: a sample without pairs has no growth."""
-    return [part for part in parts if np.isfinite(part.estimate.value)]
+    return [part for part in parts if np.isfinite(part.measured.value)]

@@ -15,8 +15,9 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import pandas as pd
 
-from grainmodes.claims.claim import NotTested, Outcome, Part, claim
-from grainmodes.claims.samples import MIN_SAMPLES, label, samples_by_size
+from grainmodes.claims.claim import NotTested, Outcome, claim
+from grainmodes.claims.part import MIN_SAMPLES, Part
+from grainmodes.claims.samples import label, samples_by_size
 from grainmodes.ensemble.exceptional import PairSample, pair_samples
 from grainmodes.statistics.estimates import Estimate, mean
 
@@ -37,6 +38,8 @@ def born_under_shear(ensemble) -> Outcome:
     These are the number of pairs in the first state, and the share of the samples with a pair in
     any later state.
 
+    Asked of: every N and point with tracks of complex pairs.
+
     Criterion: The first state has no pair, and pairs are born in more than one half of the samples.
     """
     parts, notes = [], []
@@ -48,7 +51,7 @@ def born_under_shear(ensemble) -> Outcome:
             parts.append(Part(f"first state, {where}", mean(pairs[:, 0]), -0.5, 0.5))
             parts.append(Part(f"share, {where}", mean(born), MIN_SHARE))
             notes.append(f"At {where} the last state has {mean(_last(pairs))} pairs.")
-    return Outcome(parts, " ".join(notes))
+    return Outcome({"tracks of complex pairs": parts}, " ".join(notes))
 
 
 def _last(pairs: np.ndarray) -> np.ndarray:
@@ -65,6 +68,9 @@ def square_root(ensemble) -> Outcome:
     The exponent is fitted by least squares; the number of a sample is the median over its births or
     deaths.
 
+    Asked of: births and deaths, on the sides of real modes and of pairs, where four samples
+    have them.
+
     Criterion: The exponent lies within 0.49 ... 0.51.
     """
     low, high = EXPONENT - EXPONENT_TOLERANCE, EXPONENT + EXPONENT_TOLERANCE
@@ -76,7 +82,9 @@ def square_root(ensemble) -> Outcome:
                 if np.isfinite(found.error):
                     parts.append(Part(f"{event}, {side}, {where}", found, low, high))
     counted = sum(len(sample.exceptional_points) for sample in pair_samples(ensemble))
-    return Outcome(parts, f"The fits are those at {counted} exceptional points.")
+    return Outcome(
+        {"births and deaths": parts}, f"The fits are those at {counted} exceptional points."
+    )
 
 
 def _exponent(sample: PairSample, birth: int, side: str) -> float:
@@ -92,6 +100,8 @@ def parallel_eigenvectors(ensemble) -> Outcome:
     real modes, because 1 minus the product is proportional to |γ − γ_c|, and averaged over the
     births and deaths of a sample.
 
+    Asked of: every N and point where four samples have births or deaths.
+
     Criterion: The extrapolated product is above 0.999.
     """
     parts, notes = [], []
@@ -101,7 +111,7 @@ def parallel_eigenvectors(ensemble) -> Outcome:
             parts.append(Part(where, found, MIN_PRODUCT))
             far = _over(group, lambda s: float(_real(s).groupby("point")["product"].last().mean()))
             notes.append(f"In the farthest state, {where}, the product is {far}.")
-    return Outcome(parts, " ".join(notes))
+    return Outcome({"births and deaths": parts}, " ".join(notes))
 
 
 def _real(sample: PairSample) -> pd.DataFrame:
