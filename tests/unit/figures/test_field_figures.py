@@ -11,8 +11,9 @@ from numpy.testing import assert_allclose, assert_array_equal
 from grainmodes.dataset.files import Block, BlockError, write_block
 from grainmodes.figures import draw
 from grainmodes.figures.paper_a import affine_fields, eigenvectors, nonaffine_field
-from grainmodes.figures.shared.grain_maps import MAX_OUTLINED_GRAINS, Scale, draw_map, one_digit
+from grainmodes.figures.shared.grain_maps import MAX_OUTLINED_GRAINS, draw_map
 from grainmodes.figures.shared.grain_rows import grain_rows
+from grainmodes.figures.shared.map_scale import Scale
 from grainmodes.figures.shared.selection import Options
 from grainmodes.parameters.figures import FIGURES
 from pictures import numbers_of
@@ -167,7 +168,8 @@ def drawn(block: Block, prefix: str) -> tuple[EllipseCollection, Quiver]:
     """Circles and arrows of the map of one field."""
     table = affine_fields.table([block], Options())
     axes = Figure().subplots()
-    arrows = draw_map(axes, table, prefix, Scale(2.0, 1.0, 0.5))
+    scale = Scale(size=3.0, length=1.5, keys=(1.0,), limit=0.5)
+    arrows = draw_map(axes, table, prefix, scale)
     return axes.collections[0], arrows
 
 
@@ -178,9 +180,9 @@ def test_a_map_draws_every_grain_at_its_place_and_its_arrow_to_scale():
     field = block.variables["nonaffine_field_simulated"][0]
     assert_array_equal(np.flatnonzero(arrows.Umask), [RATTLER])
     for component, lengths in enumerate((arrows.U, arrows.V)):
-        expected = np.delete(field[:, component], RATTLER)
-        assert_array_equal(np.delete(lengths, RATTLER), expected)
-    assert arrows.scale == 0.5
+        expected = 0.5 * np.delete(field[:, component], RATTLER)
+        assert_allclose(np.delete(lengths, RATTLER), expected)
+    assert arrows.scale == 1.0
 
 
 def test_colours_are_symmetric_and_a_rattler_has_none():
@@ -209,24 +211,6 @@ def test_a_crowd_is_pixels_and_a_few_grains_are_outlines():
     assert 36 < MAX_OUTLINED_GRAINS < 1156
     assert (few.get_rasterized(), many.get_rasterized()) == (False, True)
     assert (len(few.get_edgecolor()), len(many.get_edgecolor())) == (1, 0)
-
-
-def test_a_scale_fits_all_but_a_few_arrows():
-    table = pd.DataFrame(
-        {"u_x": np.arange(100.0), "u_y": 0.0, "u_rotation": -np.arange(100.0) / 10}
-    )
-    scale = Scale.from_fields(table, ("u",), arrow=1.5)
-    assert scale.length * np.quantile(table["u_x"], 0.95) == pytest.approx(1.5)
-    assert (scale.key, scale.limit) == (90.0, 10.0)
-    nothing_turns = Scale.from_fields(table.assign(u_rotation=np.nan), ("u",), arrow=1.0)
-    assert nothing_turns.limit == 0.0
-
-
-@pytest.mark.parametrize(
-    ("value", "digit"), [(0.0437, 0.04), (9.7, 10.0), (1.0, 1.0), (250.0, 200.0), (0.0, 0.0)]
-)
-def test_keys_have_one_digit(value, digit):
-    assert one_digit(value) == pytest.approx(digit)
 
 
 @pytest.mark.parametrize("rotates", [True, False])

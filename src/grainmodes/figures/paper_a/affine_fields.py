@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import step_strain_maps
 from grainmodes.figures.shared.captions import Caption
-from grainmodes.figures.shared.grain_maps import Scale
 from grainmodes.figures.shared.grain_rows import field_columns
+from grainmodes.figures.shared.map_scale import Scale
 from grainmodes.figures.shared.sample_files import jammed_at_point
 from grainmodes.figures.shared.selection import Options
 

@@ -15,19 +15,18 @@ from collections.abc import Iterator
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from matplotlib.quiver import Quiver
 
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.grain_maps import (
-    Scale,
     add_colour_bar,
-    add_key,
+    add_keys,
     draw_map,
     write_map_caption,
 )
 from grainmodes.figures.shared.grain_rows import GRAINS, field_columns, field_values, grain_rows
+from grainmodes.figures.shared.map_scale import Scale, arrow_note
 from grainmodes.figures.shared.mode_marks import PAPER_KTS, row_letters
 from grainmodes.figures.shared.sample_files import jammed_at_point, joined
 from grainmodes.figures.shared.selection import Options, choose_curves, positive_kts
@@ -85,8 +84,8 @@ def caption(table: pd.DataFrame) -> Caption:
     return Caption(
         "Eigenvectors of the Jacobian near three frequencies, a row of maps per k_T/k_N, of one "
         "sample. Arrows: components (x, y), colours: rotations ℓ, of the eigenvector of norm 1 "
-        "times N^(1/2), all on one scale. Above each map its frequency and its rotational "
-        "fraction ψᴿ. An empty circle is a grain that carries no load.",
+        f"times N^(1/2), all on one scale{arrow_note(table)}. Above each map its frequency and its "
+        "rotational fraction ψᴿ. An empty circle is a grain that carries no load.",
         "(a1), (b1): rotations alone, as in Region I; (a3), (b3): translations; (a2) beside (b2): "
         "the same frequency, once translations alone and once both.",
     )
@@ -101,24 +100,23 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     grid = figure.subplots(len(kts), columns, squeeze=False, sharex=True, sharey=True)
     scale = Scale.from_fields(table, ("mode",), arrow=1.2)
     for letter, kt, panels in zip(row_letters(kts), kts, grid, strict=True):
-        arrows = _row_of_maps(letter, panels, table[table["kt"] == kt], scale)
+        _row_of_maps(letter, panels, table[table["kt"] == kt], scale)
         panels[0].set_ylabel(f"$k_T / k_N = {labels.ratio(kt)}$\n$y/d$")
-    add_key(panels[0], arrows, scale, "")
+    add_keys(panels[-1], scale, "")
     label = r"rotation $N^{1/2} R^{\ell}_{n,i}$"
     add_colour_bar(figure, list(grid.ravel()), scale, label, orientation="horizontal", aspect=50)
     write_map_caption(figure, table, r"arrows: $N^{1/2} (R^x_{n,i}, R^y_{n,i})$")
 
 
-def _row_of_maps(letter: str, panels: np.ndarray, rows: pd.DataFrame, scale: Scale) -> Quiver:
-    """Draw the modes of one k_T, ascending in frequency; returns the arrows of the last."""
+def _row_of_maps(letter: str, panels: np.ndarray, rows: pd.DataFrame, scale: Scale) -> None:
+    """Draw the modes of one k_T, ascending in frequency."""
     modes = [mode for _, mode in rows.groupby("omega_asked")]
     for axes in panels[len(modes) :]:
         axes.set_visible(False)
     for number, (axes, mode) in enumerate(zip(panels, modes, strict=False), start=1):
-        arrows = draw_map(axes, mode, "mode", scale)
+        draw_map(axes, mode, "mode", scale)
         axes.set_title(f"({letter}{number}) {_title(mode)}")
         axes.label_outer()
-    return arrows
 
 
 def _title(mode: pd.DataFrame) -> str:

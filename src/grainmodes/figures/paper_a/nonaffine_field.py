@@ -15,8 +15,8 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import appearance, labels, step_strain_maps
 from grainmodes.figures.shared.captions import Caption
-from grainmodes.figures.shared.grain_maps import Scale
 from grainmodes.figures.shared.grain_rows import COMPONENTS, field_columns
+from grainmodes.figures.shared.map_scale import Scale
 from grainmodes.figures.shared.sample_files import jammed_at_point
 from grainmodes.figures.shared.selection import Options
 
@@ -82,8 +82,9 @@ def _draw_components(above: Axes, below: Axes, theory: np.ndarray, simulation: n
         rank, simulation, "o", **dots, color=appearance.TRANSLATIONAL, label=TITLES["simulation"]
     )
     below.plot(rank, np.abs(simulation - theory), "o", **dots, color="0.3")
-    largest = 1.35 * np.nanmax(np.abs(theory))
+    largest = 1.1 * np.nanmax(np.abs(theory))
     above.set(ylabel=r"$d\mathring{q}/d\gamma$  $(d)$", ylim=(-largest, largest))
-    above.legend(loc="upper right", ncols=2, markerscale=1.5)
+    corner = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1}
+    above.legend(ncols=2, markerscale=1.5, **corner)
     below.set(yscale="log", ylabel=r"difference  $(d)$", xlim=(-0.5, len(rank) - 0.5))
     below.set_xlabel("component: $x$, $y$, $\\ell$ of the first grain, of the second, ...")

@@ -13,12 +13,13 @@ from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import event_maps, labels
 from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.grain_maps import (
-    Scale,
     add_colour_bar,
+    add_keys,
     draw_map,
     write_map_caption,
 )
 from grainmodes.figures.shared.grain_rows import field_columns
+from grainmodes.figures.shared.map_scale import Scale
 from grainmodes.figures.shared.selection import Options
 
 COLUMNS = {
@@ -47,21 +48,23 @@ def caption(table: pd.DataFrame) -> Caption:
     """What is drawn, and what to look at."""
     return Caption(
         "Non-affine displacement Δq̊ of every grain in a plastic event, B (52), (53), between the "
-        "states at both ends of its bracket. Arrows: displacements, colours: rotations.",
+        "states at both ends of its bracket. Arrows: displacements, colours: rotations; lengths "
+        "and colours are proportional to both up to a hundredth of the largest value and grow as "
+        "the logarithm beyond, so that far grains are seen beside near ones; the arrows above the "
+        "map show two sizes.",
         "how far from the grain that moves most the event reaches, and whether the rotations "
         "around it form four domains of alternating sign.",
     )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Draw one map, with the size of its arrows above it."""
+    """Draw one map, in which lengths and colours grow as the logarithm, with keys above it."""
     figure.set_size_inches(4.2, 4.1)
     figure.set_layout_engine("compressed")
     axes = figure.subplots()
-    scale = Scale.from_fields(table, ("event",), arrow=1.2)
-    arrows = draw_map(axes, table, "event", scale)
-    label = rf"${labels.power(scale.key)}\,d$"
-    axes.quiverkey(arrows, 0.76, 1.035, scale.key, label, labelpos="E", labelsep=0.05)
+    scale = Scale.compressed(table, "event", arrow=1.8)
+    draw_map(axes, table, "event", scale)
+    add_keys(axes, scale, "$\\,d$")
     add_colour_bar(figure, [axes], scale, r"$\Delta\mathring{\ell}|_c$  $(d)$")
     width = labels.power(table["width"].iloc[0], 2)
     strain = event_maps.event_strain_label(table)

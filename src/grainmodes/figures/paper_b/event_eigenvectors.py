@@ -17,13 +17,13 @@ from grainmodes.figures.shared import event_maps, labels
 from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.grain_maps import (
-    Scale,
     add_colour_bar,
-    add_key,
+    add_keys,
     draw_map,
     write_map_caption,
 )
 from grainmodes.figures.shared.grain_rows import COMPONENTS, field_columns
+from grainmodes.figures.shared.map_scale import Scale
 from grainmodes.figures.shared.selection import Options
 
 SIDES = ("before", "after")
@@ -75,11 +75,11 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     panels = figure.subplots(1, 2, sharey=True)
     scale = Scale.from_fields(table, SIDES, arrow=1.2)
     for index, (axes, side) in enumerate(zip(panels, SIDES, strict=True)):
-        arrows = draw_map(axes, table, side, scale)
+        draw_map(axes, table, side, scale)
         value = labels.power(table[f"eigenvalue_{side}"].iloc[0], 4)
         labels.name_panel(axes, index, rf"{side}: $\lambda_{{\min}} = {value}$")
         axes.label_outer()
-    add_key(panels[1], arrows, scale, "")
+    add_keys(panels[1], scale, "")
     add_colour_bar(figure, list(panels), scale, r"rotation $N^{1/2} R^{\ell}_i$")
     strain = event_maps.event_strain_label(table)
     write_map_caption(figure, table, rf"arrows: $N^{{1/2}} (R^x_i, R^y_i)$, {strain}")

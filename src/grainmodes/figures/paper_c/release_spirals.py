@@ -23,9 +23,9 @@ from grainmodes.figures.shared.grain_maps import (
     MAX_OUTLINED_GRAINS,
     draw_discs,
     frame_box,
-    one_digit,
 )
 from grainmodes.figures.shared.grain_rows import GRAINS
+from grainmodes.figures.shared.map_scale import one_digit
 from grainmodes.figures.shared.release_rows import (
     RUN,
     ReleasedSample,
@@ -146,7 +146,7 @@ def add_paths(axes: Axes, paths: np.ndarray, lw: float = 0.5) -> LineCollection:
 def draw_grains_at_start(axes: Axes, table: pd.DataFrame) -> None:
     """Draw the grains at the start, as empty circles in their box."""
     start = table.drop_duplicates("grain")
-    draw_discs(axes, start, np.full(len(start), np.nan), 1.0)
+    draw_discs(axes, start, np.full(len(start), np.nan))
     frame_box(axes, start)
 
 

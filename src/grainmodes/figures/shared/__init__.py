@@ -17,6 +17,7 @@
 | `sample_files`     | files of single samples, and which of them a figure shows              |
 | `grain_rows`       | a row per grain                                                        |
 | `grain_maps`       | maps of grains with arrows and colours                                 |
+| `map_scale`        | how a map translates a field into arrows and colours                   |
 | `step_strain_maps` | two displacement fields side by side: A, Figs. 2 and 3; B, Fig. 5      |
 | `event_rows`       | states around one event: B, Figs. 3, 10 to 13                          |
 | `event_maps`       | fields of one event: B, Figs. 4 to 6                                   |

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from itertools import product
-from typing import NamedTuple
 
 import matplotlib.colors
 import numpy as np
@@ -17,10 +16,13 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import EllipseCollection
 from matplotlib.figure import Figure
+from matplotlib.offsetbox import AnchoredOffsetbox, AuxTransformBox, HPacker, TextArea
+from matplotlib.patches import FancyArrow
 from matplotlib.quiver import Quiver
+from matplotlib.ticker import FuncFormatter
 
 from grainmodes.figures.shared import labels
-from grainmodes.figures.shared.grain_rows import COMPONENTS
+from grainmodes.figures.shared.map_scale import Scale, arrow_spacing, grains_with_arrows
 
 COLOURS = matplotlib.colors.LinearSegmentedColormap.from_list(
     "rotation", matplotlib.colormaps["RdBu_r"](np.linspace(0.1, 0.9, 256))
@@ -32,55 +34,28 @@ MAX_OUTLINED_GRAINS = 1100
 would make the map grey, and the file megabytes large."""
 
 
-class Scale(NamedTuple):
-    """How a map translates a field.
-
-    Attributes:
-        length: length in d of an arrow of size 1.
-        key: size of the arrow that is shown as key.
-        limit: rotation at the ends of the colours; 0 where nothing turns.
-    """
-
-    length: float
-    key: float
-    limit: float
-
-    @classmethod
-    def from_fields(cls, table: pd.DataFrame, prefixes: tuple[str, ...], arrow: float) -> Scale:
-        """The scale on which 19 of 20 arrows of these fields are shorter than `arrow`, in d."""
-        x, y, rotation = (
-            np.concatenate([table[f"{prefix}_{name}"] for prefix in prefixes])
-            for name in COMPONENTS
-        )
-        typical = np.nanquantile(np.hypot(x, y), 0.95)
-        limit = np.quantile(np.nan_to_num(np.abs(rotation)), 0.99)
-        return cls(arrow / typical, one_digit(typical), one_digit(limit))
-
-
-def one_digit(value: float) -> float:
-    """A value that is not negative, rounded to one significant digit: 0.0437 → 0.04."""
-    if value == 0.0:
-        return 0.0
-    decade = 10.0 ** math.floor(math.log10(value))
-    return round(value / decade) * decade
-
-
 def draw_map(axes: Axes, grains: pd.DataFrame, prefix: str, scale: Scale) -> Quiver:
-    """Draw grains, colours, arrows and the box; returns the arrows, for `add_key`."""
-    draw_discs(axes, grains, grains[f"{prefix}_rotation"].to_numpy(), scale.limit)
+    """Draw grains, colours, arrows and the box; of many grains not each has an arrow."""
+    draw_discs(axes, grains, grains[f"{prefix}_rotation"].to_numpy(), scale)
+    shown = grains_with_arrows(grains)
+    x, y = (shown[f"{prefix}_{name}"].to_numpy() for name in ("x", "y"))
+    size = np.hypot(x, y)
+    stretch = scale.lengths(size) / np.where(size > 0.0, size, 1.0)
     arrows = axes.quiver(
-        *(grains[name] for name in ("x", "y", f"{prefix}_x", f"{prefix}_y")),
+        shown["x"],
+        shown["y"],
+        stretch * x,
+        stretch * y,
         pivot="mid",
         angles="xy",
         scale_units="xy",
-        scale=1.0 / scale.length,
+        scale=1.0,
         units="inches",
-        width=0.05 / math.sqrt(grains["box_length"].iloc[0]),
+        width=0.05 / math.sqrt(grains["box_length"].iloc[0] / arrow_spacing(grains)),
         headwidth=3.2,
         headlength=3.6,
         headaxislength=3.2,
         minlength=0.0,
-        rasterized=len(grains) > MAX_OUTLINED_GRAINS,
     )
     frame_box(axes, grains)
     return arrows
@@ -93,18 +68,37 @@ def frame_box(axes: Axes, grains: pd.DataFrame) -> None:
     axes.tick_params(direction="out", top=False, right=False, which="both")
 
 
-def add_key(axes: Axes, arrows: Quiver, scale: Scale, unit: str) -> None:
-    """Draw an arrow and its size above the right corner of a map."""
-    label = f"{scale.key:g}{unit}"
-    axes.quiverkey(arrows, 0.86, 1.05, scale.key, label, labelpos="E", labelsep=0.05)
+def add_keys(axes: Axes, scale: Scale, unit: str) -> None:
+    """Draw arrows of the sizes of the keys, with these sizes, above the right corner of a map."""
+    parts = [part for size in scale.keys for part in _key(axes, scale, size, unit)]
+    row = HPacker(children=parts, align="center", pad=0.0, sep=3.0)
+    corner = {"bbox_to_anchor": (1.0, 1.0), "bbox_transform": axes.transAxes}
+    axes.add_artist(AnchoredOffsetbox("lower right", child=row, pad=0.2, frameon=False, **corner))
 
 
-def draw_discs(axes: Axes, grains: pd.DataFrame, rotation: np.ndarray, limit: float) -> None:
+def _key(axes: Axes, scale: Scale, size: float, unit: str) -> tuple[AuxTransformBox, TextArea]:
+    """An arrow as long as the map draws this size, and its words."""
+    length, side = float(scale.lengths(size)), axes.get_xlim()[1]
+    box = AuxTransformBox(axes.transData)
+    head = {"head_width": 0.022 * side, "head_length": min(0.025 * side, length)}
+    arrow = FancyArrow(0.0, 0.0, length, 0.0, width=0.007 * side, length_includes_head=True, **head)
+    arrow.set(color="k", lw=0.0)
+    box.add_artist(arrow)
+    return box, TextArea(f"${labels.power(size)}${unit}", textprops={"fontsize": 8})
+
+
+def draw_discs(
+    axes: Axes, grains: pd.DataFrame, rotation: np.ndarray, scale: Scale | None = None
+) -> None:
     """Draw every grain as a circle of its colour, and its images that reach into the box.
 
     A rotation of NaN leaves the circle empty.
+
+    Args:
+        scale: may be absent where every rotation is NaN.
     """
-    faces = COLOURS(_colour_range(limit)(rotation))  # NaN is transparent
+    place = scale.colour_range()(rotation) if scale else rotation
+    faces = COLOURS(place)  # NaN is transparent
     centre, grain = _with_images(grains)
     diameter = grains["diameter"].to_numpy()[grain]
     outlined = len(grains) <= MAX_OUTLINED_GRAINS
@@ -136,16 +130,19 @@ def _with_images(grains: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
 
 
 def add_colour_bar(figure: Figure, panels: list[Axes], scale: Scale, label: str, **place) -> None:
-    """Add the colour bar of some panels; its ends are pointed, as a few rotations lie beyond."""
+    """Add the colour bar of some panels; its ends are pointed where rotations may lie beyond."""
     if scale.limit == 0.0:
         return
-    colours = ScalarMappable(_colour_range(scale.limit), COLOURS)
-    figure.colorbar(colours, ax=panels, label=label, extend="both", pad=0.02, **place)
+    colours = ScalarMappable(scale.colour_range(), COLOURS)
+    place = {"pad": 0.02, "extend": "both" if math.isinf(scale.linear_share) else "neither"} | place
+    bar = figure.colorbar(colours, ax=panels, label=label, ticks=scale.colour_ticks(), **place)
+    if scale.colour_ticks():
+        bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"${_signed(value)}$"))
+        bar.minorticks_off()
 
 
-def _colour_range(limit: float) -> matplotlib.colors.Normalize:
-    """Symmetric about 0, with any ends where nothing turns."""
-    return matplotlib.colors.Normalize(-(limit or 1.0), limit or 1.0)
+def _signed(value: float) -> str:
+    return f"-{labels.power(-value)}" if value < 0.0 else labels.power(value)
 
 
 def write_map_caption(figure: Figure, table: pd.DataFrame, note: str) -> None:

@@ -8,13 +8,13 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import Block
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.grain_maps import (
-    Scale,
     add_colour_bar,
-    add_key,
+    add_keys,
     draw_map,
     write_map_caption,
 )
 from grainmodes.figures.shared.grain_rows import GRAINS, field_values, grain_rows
+from grainmodes.figures.shared.map_scale import Scale
 from grainmodes.figures.shared.sample_files import at_kt, joined
 from grainmodes.figures.shared.selection import Options
 
@@ -63,7 +63,8 @@ def draw_two_maps(
     panels = figure.subplots(1, 2, sharey=True)
     for index, (axes, (prefix, title)) in enumerate(zip(panels, titles.items(), strict=True)):
         scale = scales[prefix]
-        add_key(axes, draw_map(axes, table, prefix, scale), scale, "$\\,d$")
+        draw_map(axes, table, prefix, scale)
+        add_keys(axes, scale, "$\\,d$")
         labels.name_panel(axes, index, title)
         axes.label_outer()
     add_colour_bar(figure, list(panels), scale, r"$d\mathring{\ell}/d\gamma$  $(d)$")
