@@ -95,7 +95,8 @@ def _coordinates(block: Block) -> tuple[int, float, float]:
 
 
 def _layout(paths: list[Path]) -> Layout:
-    grid, seeds, names, stages, versions, lengths = set(), set(), set(), set(), set(), {"mode": 0}
+    stages: set[str] = set()
+    grid, seeds, names, versions, lengths = set(), set(), set(), set(), {"mode": 0}
     for _, block in _points(paths):
         grid.add(_coordinates(block))
         seeds.update(block.variables["seed"].tolist())

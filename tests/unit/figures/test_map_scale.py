@@ -32,7 +32,9 @@ def test_a_scale_fits_all_but_a_few_arrows():
     scale = Scale.from_fields(table, ("u",), arrow=1.5)
     assert scale.lengths(np.quantile(table["u_x"], 0.95)) == pytest.approx(1.5)
     assert (scale.keys, scale.limit) == ((10.0,), 1.0)
-    assert_allclose(scale.lengths([1.0, 2.0, 0.0]), np.array([1.0, 2.0, 0.0]) * 1.5 / scale.size)
+    assert_allclose(
+        scale.lengths(np.array([1.0, 2.0, 0.0])), np.array([1.0, 2.0, 0.0]) * 1.5 / scale.size
+    )
     nothing_turns = Scale.from_fields(table.assign(u_rotation=np.nan), ("u",), arrow=1.0)
     assert nothing_turns.limit == 0.0
 
@@ -40,7 +42,7 @@ def test_a_scale_fits_all_but_a_few_arrows():
 def test_a_compressed_scale_shows_two_decades_and_saturates_nowhere():
     table = lattice(10).assign(u_x=np.logspace(-6, -1, 100), u_rotation=np.linspace(-0.3, 0.1, 100))
     scale = Scale.compressed(table, "u", arrow=2.0)
-    longest, tenth, hundredth, tiny = scale.lengths([0.1, 0.01, 0.001, 0.00001])
+    longest, tenth, hundredth, tiny = scale.lengths(np.array([0.1, 0.01, 0.001, 0.00001]))
     assert longest == pytest.approx(2.0)
     assert 1.0 < tenth < 1.3
     assert 0.3 < hundredth < 0.4
@@ -77,7 +79,7 @@ def test_keys_are_arrows_as_long_as_those_of_the_map():
     words = [text.get_text() for text in box.findobj(TextArea)]
     assert words == ["$10$$\\,d$", "$0.1$$\\,d$"]
     lengths = [np.ptp(arrow.get_xy()[:, 0]) for arrow in box.findobj(FancyArrow)]
-    assert_allclose(lengths, scale.lengths(scale.keys))
+    assert_allclose(lengths, scale.lengths(np.array(scale.keys)))
 
 
 @pytest.mark.parametrize(

@@ -84,7 +84,8 @@ def _draw_components(above: Axes, below: Axes, theory: np.ndarray, simulation: n
     below.plot(rank, np.abs(simulation - theory), "o", **dots, color="0.3")
     largest = 1.1 * np.nanmax(np.abs(theory))
     above.set(ylabel=r"$d\mathring{q}/d\gamma$  $(d)$", ylim=(-largest, largest))
-    corner = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.1}
-    above.legend(ncols=2, markerscale=1.5, **corner)
+    above.legend(
+        loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.1, ncols=2, markerscale=1.5
+    )
     below.set(yscale="log", ylabel=r"difference  $(d)$", xlim=(-0.5, len(rank) - 0.5))
     below.set_xlabel("component: $x$, $y$, $\\ell$ of the first grain, of the second, ...")

@@ -12,6 +12,7 @@ from itertools import product
 import matplotlib.colors
 import numpy as np
 import pandas as pd
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import EllipseCollection
@@ -70,21 +71,41 @@ def frame_box(axes: Axes, grains: pd.DataFrame) -> None:
 
 def add_keys(axes: Axes, scale: Scale, unit: str) -> None:
     """Draw arrows of the sizes of the keys, with these sizes, above the right corner of a map."""
-    parts = [part for size in scale.keys for part in _key(axes, scale, size, unit)]
+    parts: list[Artist] = []
+    for size in scale.keys:
+        words = f"${labels.power(size)}${unit}"
+        parts += [_key_arrow(axes, scale, size), TextArea(words, textprops={"fontsize": 8})]
     row = HPacker(children=parts, align="center", pad=0.0, sep=3.0)
-    corner = {"bbox_to_anchor": (1.0, 1.0), "bbox_transform": axes.transAxes}
-    axes.add_artist(AnchoredOffsetbox("lower right", child=row, pad=0.2, frameon=False, **corner))
+    axes.add_artist(
+        AnchoredOffsetbox(
+            "lower right",
+            child=row,
+            pad=0.2,
+            frameon=False,
+            bbox_to_anchor=(1.0, 1.0),
+            bbox_transform=axes.transAxes,
+        )
+    )
 
 
-def _key(axes: Axes, scale: Scale, size: float, unit: str) -> tuple[AuxTransformBox, TextArea]:
-    """An arrow as long as the map draws this size, and its words."""
-    length, side = float(scale.lengths(size)), axes.get_xlim()[1]
+def _key_arrow(axes: Axes, scale: Scale, size: float) -> AuxTransformBox:
+    """An arrow as long as the map draws this size."""
+    length, side = scale.lengths(np.array(size)).item(), axes.get_xlim()[1]
     box = AuxTransformBox(axes.transData)
-    head = {"head_width": 0.022 * side, "head_length": min(0.025 * side, length)}
-    arrow = FancyArrow(0.0, 0.0, length, 0.0, width=0.007 * side, length_includes_head=True, **head)
-    arrow.set(color="k", lw=0.0)
+    arrow = FancyArrow(
+        0.0,
+        0.0,
+        length,
+        0.0,
+        width=0.007 * side,
+        head_width=0.022 * side,
+        head_length=min(0.025 * side, length),
+        length_includes_head=True,
+        color="k",
+        lw=0.0,
+    )
     box.add_artist(arrow)
-    return box, TextArea(f"${labels.power(size)}${unit}", textprops={"fontsize": 8})
+    return box
 
 
 def draw_discs(

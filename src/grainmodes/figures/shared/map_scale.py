@@ -63,7 +63,7 @@ class Scale(NamedTuple):
 
     def lengths(self, sizes: np.ndarray) -> np.ndarray:
         """Lengths in d of the arrows that stand for these sizes."""
-        share = np.asarray(sizes) / self.size
+        share = sizes / self.size
         if math.isinf(self.linear_share):
             return self.length * share
         return self.length * _compressed(share / self.linear_share, 1.0 / self.linear_share)
