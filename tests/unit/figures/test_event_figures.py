@@ -159,6 +159,21 @@ def test_states_are_held_against_those_at_the_edge_of_the_event():
     assert (table["law"] == "harmonic").all()
 
 
+def test_brackets_are_bars_that_close_on_the_event():
+    table = event_brackets.table([event_detail()], Options())
+    table.loc[table["min_step"] == 1e-4, "distance"] += 3e-6
+    figure = Figure()
+    event_brackets.draw(figure, table)
+    _, brackets, convergence = figure.axes
+    bars = np.array(brackets.collections[0].get_segments())
+    assert_allclose(bars[:, :, 0], [[1e-5, 1e-5], [1e-4, 1e-4]])
+    assert_allclose(bars[:, :, 1], [[-0.05, 0.05], [-0.47, 0.53]], atol=1e-9)
+    distance, line = convergence.lines
+    assert_allclose(distance.get_xydata(), [[1e-4, 3e-6]], rtol=1e-6)
+    assert_allclose(line.get_xydata(), [[1e-5, 5e-6], [1e-4, 5e-5]])
+    assert (brackets.get_yscale(), convergence.get_yscale()) == ("linear", "log")
+
+
 def test_brackets_know_their_ends_and_leave_out_walks_without_an_event():
     table = event_brackets.table([event_detail()], Options())
     assert list(table["min_step"].unique()) == [1e-4, 1e-5]

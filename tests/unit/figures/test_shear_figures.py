@@ -1,7 +1,9 @@
 """Curves of sheared samples as they are drawn, against the numbers they were made from."""
 
 import numpy as np
+import pandas as pd
 import pytest
+from matplotlib.figure import Figure
 from numpy.testing import assert_allclose
 
 import claim_fixtures_shear
@@ -14,6 +16,7 @@ from grainmodes.figures.paper_b import (
     stress_brackets,
     stress_strain,
 )
+from grainmodes.figures.shared.appearance import RED
 from grainmodes.figures.shared.selection import Options
 
 
@@ -78,6 +81,40 @@ def test_slope_of_the_stress_is_left_out_in_events(sheared):
     assert_allclose(table["rigidity_simulated"].dropna(), 0.3)
     assert table.loc[table["event"] == 1, "rigidity_simulated"].isna().all()
     assert_allclose(table["lowest_eigenvalue"].iloc[[0, -1]], [0.2, 0.15])
+
+
+def crowd(event: int) -> pd.DataFrame:
+    """200 states of one sample in steps of 1e-4, with an event in the step after state 150."""
+    state = np.arange(200)
+    point = {"n": 64, "phi": 0.9, "kt": 1.0, "seed": 0, "law": "harmonic"}
+    after = (state > 150) * event
+    columns = {"rigidity": 0.3 - 0.1 * after, "lowest_eigenvalue": 0.2 - 0.1 * after}
+    columns |= {"rigidity_simulated": 0.3, "event": (state == 150) * event}
+    return pd.DataFrame(point | {"strain": 1e-4 * state} | columns)
+
+
+def test_symbols_do_not_merge_and_every_state_around_an_event_is_shown():
+    figure = Figure()
+    rigidity_strain.draw(figure, crowd(event=1))
+    assert len(figure.axes) == 4
+    whole, close_up = figure.axes[:2]
+    line, symbols, dots = whole.lines[:3]
+    assert (len(line.get_xdata()), len(symbols.get_xdata())) == (200, 40)
+    assert_allclose(symbols.get_xdata(), dots.get_xdata())
+    assert_allclose(close_up.lines[1].get_xdata(), 1e-4 * np.arange(145, 156))
+    assert [bar.get_xdata()[0] for bar in close_up.lines if bar.get_color() == RED] == [0.015]
+    quiet = Figure()
+    rigidity_strain.draw(quiet, crowd(event=0))
+    assert len(quiet.axes) == 2
+
+
+def test_a_few_known_eigenvalues_are_all_shown():
+    table = crowd(event=1)
+    known = table.index.isin([149, 150, 151])
+    table["lowest_eigenvalue"] = table["lowest_eigenvalue"].where(known)
+    figure = Figure()
+    rigidity_strain.draw(figure, table)
+    assert_allclose(figure.axes[2].lines[1].get_xdata(), [0.0149, 0.015, 0.0151])
 
 
 def test_mean_rigidity_is_that_of_theory_where_nothing_is_missing(sheared):

@@ -1,8 +1,9 @@
 """The first event of a sample in closer and closer brackets: B, Figs. 11 and 12.
 
-(a): stress against strain around the event, a colour per smallest step Δγ_Th. (b): the last state
-before the event (squares) and the first one after it (circles), as distances to γ_c, against Δγ_Th;
-γ_c is the middle of the closest bracket, and the lines are ±Δγ_Th.
+(a): stress against strain around the event, a colour per smallest step Δγ_Th. (b): the bracket of
+every Δγ_Th, from the last state before the event (square) to the first one after it (circle). (c):
+how far the middle of every bracket lies from γ_c, which is the middle of the closest one; the line
+is Δγ_Th/2, the most by which nested brackets may differ.
 """
 
 from __future__ import annotations
@@ -65,20 +66,25 @@ def _rows_of_shears(block: Block) -> Iterator[pd.DataFrame]:
 def caption(table: pd.DataFrame) -> Caption:
     """What is drawn, and what to look at."""
     return Caption(
-        "The first plastic event of one sample in closer and closer brackets Δγ_Th: (a) stress "
-        "against the distance to γ_c, the middle of the closest bracket, a colour per Δγ_Th; (b) "
-        "the ends of the bracket, squares before and circles after the event, as distances to γ_c "
-        "against Δγ_Th; lines: ±Δγ_Th.",
-        "whether the ends in (b) close on γ_c in proportion to Δγ_Th.",
+        "The first plastic event of one sample in closer and closer brackets: (a) stress against "
+        "the distance to γ_c, the middle of the closest bracket, a colour per smallest step "
+        "Δγ_Th; (b) the bracket of every Δγ_Th, from the last state before the event (square) to "
+        "the first one after it (circle); (c) distance of the middle of every bracket from γ_c, "
+        "double logarithmic, with the line Δγ_Th/2.",
+        "whether the symbols of (c) lie on the line or below it, so that γ_c converges with "
+        "Δγ_Th; a bracket of (b) that does not hold γ_c had its event at another strain, as its "
+        "steps were larger.",
     )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Draw both panels."""
-    figure.set_size_inches(7.0, 3.0)
-    left, right = figure.subplots(1, 2)
-    _draw_curves(left, table)
-    _draw_ends(right, table)
+    """Draw the three panels."""
+    figure.set_size_inches(7.0, 2.8)
+    curves, brackets, convergence = figure.subplots(1, 3)
+    _draw_curves(curves, table)
+    ends = table[table["end"] != ""].pivot(index="min_step", columns="end", values="distance")
+    _draw_ends(brackets, ends)
+    _draw_convergence(convergence, ends)
     critical = (table["strain"] - table["distance"]).iloc[0]
     figure.suptitle(labels.sample_caption(table, rf"$\gamma_c = {critical:.11f}$"))
 
@@ -97,22 +103,28 @@ def _draw_curves(axes: Axes, table: pd.DataFrame) -> None:
     labels.name_panel(axes, 0, "stress around the event")
 
 
-def _draw_ends(axes: Axes, table: pd.DataFrame) -> None:
-    """Draw the ends of the brackets on a symmetric logarithmic axis of γ − γ_c."""
+def _draw_ends(axes: Axes, ends: pd.DataFrame) -> None:
+    """Draw a bar from end to end of every bracket, with its two states."""
+    axes.vlines(ends.index, 1e4 * ends["before"], 1e4 * ends["after"], color="0.5", lw=0.9)
     for side, (colour, marker) in SIDES.items():
-        ends = table[table["end"] == side]
-        style = {"color": colour, "mfc": "none", "label": side}
-        axes.plot(ends["min_step"], ends["distance"], marker, **style)
-    steps = np.sort(table["min_step"].unique())
-    for sign in (-1.0, 1.0):
-        name = r"$\pm \Delta\gamma_{\rm Th}$" if sign > 0 else None
-        axes.plot(steps, sign * steps, "-", color="0.6", lw=0.7, zorder=0, label=name)
-    axes.set_xscale("log")
-    axes.set_yscale("symlog", linthresh=steps[0] / 2, linscale=0.5)
-    decades = 10.0 ** np.arange(-10, -3, 2)
-    axes.set_yticks([*-decades[::-1], 0.0, *decades])
-    axes.minorticks_off()
-    axes.set_ylim(-4.0 * steps[-1], 4.0 * steps[-1])
-    axes.set(xlabel=r"$\Delta\gamma_{\rm Th}$", ylabel=r"$\gamma - \gamma_c$")
+        style = {"color": colour, "mfc": "none", "markersize": 4.0, "label": side}
+        axes.plot(ends.index, 1e4 * ends[side], marker, **style)
+    axes.axhline(0.0, color="0.6", lw=0.6, zorder=0)
+    axes.set(xscale="log", xlabel=r"$\Delta\gamma_{\rm Th}$")
+    axes.set(ylabel=r"$(\gamma - \gamma_c) \times 10^4$")
+    axes.legend(loc="best")
+    labels.name_panel(axes, 1, "brackets")
+
+
+def _draw_convergence(axes: Axes, ends: pd.DataFrame) -> None:
+    """Draw the distance of every bracket's middle to γ_c, but that of the closest bracket."""
+    middle = (ends["before"] + ends["after"]).abs() / 2.0
+    middle = middle[(middle.index > ends.index.min()) & (middle > 0.0)]
+    axes.loglog(middle.index, middle, "D", color="0.15", mfc="none", markersize=4.0)
+    steps = ends.index.to_numpy()
+    axes.loglog(steps, steps / 2.0, "-", color="0.6", lw=0.8, label=r"$\Delta\gamma_{\rm Th}/2$")
+    axes.set(
+        xlabel=r"$\Delta\gamma_{\rm Th}$", ylabel=r"$|\gamma_c(\Delta\gamma_{\rm Th}) - \gamma_c|$"
+    )
     axes.legend(loc="upper left")
-    labels.name_panel(axes, 1, "ends of the bracket")
+    labels.name_panel(axes, 2, r"convergence of $\gamma_c$")

@@ -1,8 +1,10 @@
 """Rigidity and smallest eigenvalue of one sample at small strain, through an event: B, Fig. 7.
 
-Above g: open symbols by linear response, dots as slope of the stress in steps without a plastic
-event. Below λ_min of the Jacobian. Vertical lines mark events. The strains are B's, or reach beyond
-the first event of a sample that has it later.
+Above g: line and open symbols by linear response, dots as slope of the stress in steps without a
+plastic event. Below λ_min of the Jacobian. Left all strains, where the line joins all states and a
+state in each of some cells of strain has a symbol; right every state around the first event, which
+is B's inset. Vertical lines mark events. The strains are B's, or reach beyond the first event of a
+sample that has it later.
 """
 
 from __future__ import annotations
@@ -40,9 +42,14 @@ RANGE_BEYOND_EVENT = 1.25
 event."""
 
 NOTE = (
-    "open symbols: linear response, dots: slope of the stress\n"
-    "in steps without plastic event; bars: events"
+    "open: linear response, dots: slope of the stress in steps without plastic event; bars: events"
 )
+
+MAX_SYMBOLS = 40
+"""Number of states that have symbols over all strains, where those of all would merge."""
+
+STEPS_AROUND_EVENT = 5
+"""Longest steps on either side of the first event that the close-up shows."""
 
 
 def table(ensemble, options: Options) -> pd.DataFrame:
@@ -74,30 +81,69 @@ def _largest_strain(curve: Curve) -> float:
 def caption(table: pd.DataFrame) -> Caption:
     """What is drawn, and what to look at."""
     return Caption(
-        "Rigidity g (a) and smallest eigenvalue λ_min of the Jacobian (b) of one sample against "
-        "strain, from zero to beyond its first plastic event. Open symbols: linear response; "
-        "dots: slope of the simulated stress, in steps without an event; red lines: events.",
-        "whether dots lie in the open symbols, and whether g and λ_min announce an event or jump "
-        "at it.",
+        "Rigidity g (above) and smallest eigenvalue λ_min of the Jacobian (below) of one sample "
+        "against strain; left from zero to beyond the first plastic event, right every state "
+        "around this event. Open symbols: linear response, joined by a line through all states; "
+        "dots: slope of the simulated stress, in steps without an event; red lines: events. On "
+        "the left, one state in each of 40 cells of strain has a symbol.",
+        "whether dots lie in the open symbols, and whether g and λ_min announce the event or jump "
+        "at it; steps of both between events are contacts that open or close.",
     )
 
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
-    """Draw g above and λ_min below, on one axis of strain."""
-    figure.set_size_inches(3.5, 4.4)
-    upper, lower = figure.subplots(2, 1, sharex=True)
-    strain = table["strain"]
-    open_style = {"color": ROTATIONAL, "mfc": "none", "mew": 0.6, "markersize": 3.8}
-    upper.plot(strain, table["rigidity"], "o", **open_style)
-    upper.plot(strain, table["rigidity_simulated"], "o", color="0.15", markersize=1.6, mew=0)
-    lower.plot(strain, table["lowest_eigenvalue"], "o", **open_style)
-    upper.set(ylabel=labels.modulus_label("$g$", table), ylim=_limits(table["rigidity"]))
-    label = labels.modulus_label(r"$\lambda_{\min}$", table)
-    lower.set(xlabel=r"$\gamma$", ylabel=label)
-    for index, (axes, title) in enumerate(((upper, "rigidity"), (lower, "smallest eigenvalue"))):
-        labels.name_panel(axes, index, title)
+    """Draw g above and λ_min below, over all strains and, if there is an event, around it."""
+    figure.set_size_inches(7.0, 4.2)
+    columns = [(table, _spread(table))]
+    if table["event"].any():
+        around = _around_first_event(table)
+        columns.append((around, around))
+    ratios = (2.0, 1.0)[: len(columns)]
+    grid = figure.subplots(2, len(columns), squeeze=False, sharex="col", width_ratios=ratios)
+    for (states, shown), (upper, lower) in zip(columns, grid.T, strict=True):
+        _draw_rigidity(upper, states, shown)
+        _draw_curve(lower, states, shown, "lowest_eigenvalue")
+        lower.set(xlabel=r"$\gamma$")
+    grid[0, 0].set(ylabel=labels.modulus_label("$g$", table))
+    grid[1, 0].set(ylabel=labels.modulus_label(r"$\lambda_{\min}$", table))
+    titles = ("rigidity", "around the first event", "smallest eigenvalue", "around the first event")
+    names = [titles[2 * row + column] for row in (0, 1) for column in range(len(columns))]
+    for index, (axes, name) in enumerate(zip(grid.ravel(), names, strict=True)):
+        labels.name_panel(axes, index, name)
         _mark_events(axes, table)
     labels.write_sample_caption(figure, table, NOTE)
+
+
+def _draw_rigidity(axes: Axes, states: pd.DataFrame, shown: pd.DataFrame) -> None:
+    _draw_curve(axes, states, shown, "rigidity")
+    axes.plot(shown["strain"], shown["rigidity_simulated"], "o", color="0.15", ms=1.8, mew=0)
+    axes.set(ylim=_limits(states["rigidity"]))
+
+
+def _draw_curve(axes: Axes, states: pd.DataFrame, shown: pd.DataFrame, column: str) -> None:
+    """Draw a line through all states and open symbols at those shown, or at all if they are few."""
+    known = states[states[column].notna()]
+    shown = known if len(known) <= MAX_SYMBOLS else shown
+    axes.plot(known["strain"], known[column], color=ROTATIONAL, lw=0.6)
+    style = {"color": ROTATIONAL, "mfc": "white", "mew": 0.7, "markersize": 4.2}
+    axes.plot(shown["strain"], shown[column], "o", **style)
+    low, high = states["strain"].iloc[[0, -1]]
+    margin = 0.03 * (high - low)
+    axes.set(xlim=(low - margin, high + margin))
+    axes.locator_params(axis="x", nbins=4)
+
+
+def _spread(states: pd.DataFrame) -> pd.DataFrame:
+    """The first state in each of `MAX_SYMBOLS` equal cells of strain."""
+    cell = np.floor(states["strain"] / states["strain"].max() * MAX_SYMBOLS)
+    return states[~cell.duplicated()]
+
+
+def _around_first_event(table: pd.DataFrame) -> pd.DataFrame:
+    """The states within some steps of the first event."""
+    centre = table.loc[table["event"] == 1, "strain"].iloc[0]
+    width = STEPS_AROUND_EVENT * table["strain"].diff().max()
+    return table[(table["strain"] - centre).abs() <= width]
 
 
 def _mark_events(axes: Axes, table: pd.DataFrame) -> None:
