@@ -107,8 +107,8 @@ def _draw_ends(axes: Axes, ends: pd.DataFrame) -> None:
     """Draw a bar from end to end of every bracket, with its two states."""
     axes.vlines(ends.index, 1e4 * ends["before"], 1e4 * ends["after"], color="0.5", lw=0.9)
     for side, (colour, marker) in SIDES.items():
-        style = {"color": colour, "mfc": "none", "markersize": 4.0, "label": side}
-        axes.plot(ends.index, 1e4 * ends[side], marker, **style)
+        end = 1e4 * ends[side]
+        axes.plot(ends.index, end, marker, color=colour, mfc="none", markersize=4.0, label=side)
     axes.axhline(0.0, color="0.6", lw=0.6, zorder=0)
     axes.set(xscale="log", xlabel=r"$\Delta\gamma_{\rm Th}$")
     axes.set(ylabel=r"$(\gamma - \gamma_c) \times 10^4$")

@@ -125,8 +125,8 @@ def _draw_curve(axes: Axes, states: pd.DataFrame, shown: pd.DataFrame, column: s
     known = states[states[column].notna()]
     shown = known if len(known) <= MAX_SYMBOLS else shown
     axes.plot(known["strain"], known[column], color=ROTATIONAL, lw=0.6)
-    style = {"color": ROTATIONAL, "mfc": "white", "mew": 0.7, "markersize": 4.2}
-    axes.plot(shown["strain"], shown[column], "o", **style)
+    strain, values = shown["strain"], shown[column]
+    axes.plot(strain, values, "o", color=ROTATIONAL, mfc="white", mew=0.7, markersize=4.2)
     low, high = states["strain"].iloc[[0, -1]]
     margin = 0.03 * (high - low)
     axes.set(xlim=(low - margin, high + margin))
@@ -135,7 +135,7 @@ def _draw_curve(axes: Axes, states: pd.DataFrame, shown: pd.DataFrame, column: s
 
 def _spread(states: pd.DataFrame) -> pd.DataFrame:
     """The first state in each of `MAX_SYMBOLS` equal cells of strain."""
-    cell = np.floor(states["strain"] / states["strain"].max() * MAX_SYMBOLS)
+    cell = np.ceil(states["strain"] / states["strain"].max() * MAX_SYMBOLS).clip(lower=1)
     return states[~cell.duplicated()]
 
 
