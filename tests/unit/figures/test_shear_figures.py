@@ -102,7 +102,8 @@ def test_symbols_do_not_merge_and_every_state_around_an_event_is_shown():
     assert (len(line.get_xdata()), len(symbols.get_xdata())) == (200, 40)
     assert_allclose(symbols.get_xdata(), dots.get_xdata())
     assert_allclose(close_up.lines[1].get_xdata(), 1e-4 * np.arange(145, 156))
-    assert [bar.get_xdata()[0] for bar in close_up.lines if bar.get_color() == RED] == [0.015]
+    bars = [bar.get_xdata()[0] for bar in close_up.lines if bar.get_color() == RED]
+    assert bars == pytest.approx([0.015])
     quiet = Figure()
     rigidity_strain.draw(quiet, crowd(event=0))
     assert len(quiet.axes) == 2
