@@ -4,6 +4,7 @@
 # make pardiso    add a faster sparse factorisation to the environment (x86-64, MKL's licence)
 # make lint       style, the walls between rooms, and types
 # make handbook the parts of the documentation that follow from tables
+# make reference CONFIG=…  a finished study becomes a reference ensemble of the package
 # make clean      forget results, compiled kernels and Snakemake's bookkeeping
 #
 # Needed on the machine: Python >= 3.11 with pip, a C compiler, make. CONFIG=config/paper_a.yaml
@@ -20,7 +21,7 @@ READY := .venv/ready
 # Each process takes whole files, the longest unit first (tests/conftest.py).
 PYTEST := $(BIN)/python -m pytest --numprocesses $(WORKERS) --no-loadscope-reorder
 
-.PHONY: study test test-slow test-all pardiso lint handbook clean
+.PHONY: study test test-slow test-all pardiso lint handbook reference clean
 .NOTPARALLEL:
 
 study: $(READY)
@@ -46,6 +47,9 @@ lint: $(READY)
 
 handbook: $(READY)
 	$(BIN)/python workflow/scripts/handbook.py
+
+reference: $(READY)
+	$(BIN)/python workflow/scripts/reference.py $(CONFIG)
 
 clean:
 	rm -rf results/* .snakemake .numba_cache .pytest_cache .ruff_cache .import_linter_cache .mypy_cache

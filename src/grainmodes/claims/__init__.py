@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from grainmodes.claims import paper_a, paper_b, paper_c
-from grainmodes.claims.claim import Claim, Verdict
+from grainmodes.claims.claim import NOT_TESTED, Claim, Verdict
+from grainmodes.claims.samples import points_left_out
+from grainmodes.ensemble import open_ensemble
 
 CLAIMS: tuple[Claim, ...] = (*paper_a.CLAIMS, *paper_b.CLAIMS, *paper_c.CLAIMS)
 """A1 to A19, B1 to B10, then C1 to C9."""
@@ -18,3 +22,26 @@ def check(ensemble, claims: tuple[Claim, ...] = CLAIMS) -> list[Verdict]:
         claims: all claims, or those of one paper, such as `paper_a.CLAIMS`.
     """
     return [claim(ensemble) for claim in claims]
+
+
+def first_tested(paths: list[Path]) -> tuple[list[Verdict], str]:
+    """The verdict on every claim by the first of some ensembles that tests it, and their remarks.
+
+    Raises:
+        BlockError: a file is not readable, or not an ensemble.
+        ValueError: there is no ensemble.
+    """
+    if not paths:
+        raise ValueError("claims: expected at least one ensemble, got none")
+    verdicts: list[Verdict] = []
+    remarks = []
+    for path in paths:
+        with open_ensemble(path) as opened:
+            found, remark = check(opened), points_left_out(opened)
+        kept = verdicts or found
+        verdicts = [
+            new if old.verdict == NOT_TESTED else old for old, new in zip(kept, found, strict=True)
+        ]
+        if remark:
+            remarks.append(remark if len(paths) == 1 else f"{path.parent.name}: {remark}")
+    return verdicts, " ".join(remarks)

@@ -24,7 +24,7 @@ def ensemble(arguments: Namespace) -> None:
 
 
 def figure(arguments: Namespace) -> None:
-    """An ensemble, or files of single samples → one figure."""
+    """An ensemble, files of single samples, or a reference → one figure."""
     from grainmodes.figures import draw
 
     given = {name: getattr(arguments, name) for name in ("n", "phi", "kt", "bin_density", "seed")}
@@ -33,14 +33,43 @@ def figure(arguments: Namespace) -> None:
 
 
 def _source(arguments: Namespace) -> Path | list[Path]:
-    """What the figure is drawn from: files of single samples, or one ensemble."""
-    if FIGURES[arguments.figure].source != "ensemble":
-        return arguments.data
-    if len(arguments.data) > 1:
-        raise ValueError(
-            f"figure {arguments.figure}: expected one ensemble, got {len(arguments.data)} files"
+    """What the figure is drawn from: files of single samples, or one ensemble.
+
+    Raises:
+        ValueError: no data, data beside a reference, or more than one ensemble.
+    """
+    name, source = arguments.figure, FIGURES[arguments.figure].source
+    data = _given_or_reference(arguments, arguments.data, f"figure {name}")
+    if data is None:
+        from grainmodes.ensemble import reference
+
+        data = reference.files_of(
+            reference.reference_with(name, arguments.reference or None), source
         )
-    return arguments.data[0]
+    if source != "ensemble":
+        return data
+    if len(data) > 1:
+        raise ValueError(f"figure {name}: expected one ensemble, got {len(data)} files")
+    return data[0]
+
+
+def _given_or_reference(arguments: Namespace, given: list[Path], what: str) -> list[Path] | None:
+    """The given files, or None where a reference is requested instead.
+
+    Raises:
+        ValueError: both, or neither.
+    """
+    if bool(given) == (arguments.reference is not None):
+        raise ValueError(f"{what}: expected either files or --reference")
+    return given or None
+
+
+def _references(study: str) -> list[Path]:
+    """The ensemble of the reference of a study, or those of all."""
+    from grainmodes.ensemble import reference
+
+    found = [reference.reference_named(study)] if study else reference.references().values()
+    return [path for one in found for path in reference.files_of(one, "ensemble")]
 
 
 def film(arguments: Namespace) -> None:
@@ -53,15 +82,14 @@ def film(arguments: Namespace) -> None:
 
 
 def claims(arguments: Namespace) -> None:
-    """An ensemble → the verdict on every claim."""
-    from grainmodes.claims import check, report
-    from grainmodes.claims.samples import points_left_out
-    from grainmodes.ensemble import open_ensemble
+    """An ensemble, or the references → the verdict on every claim."""
+    from grainmodes.claims import first_tested, report
 
     for path in arguments.outputs:
         report.form(path)
-    with open_ensemble(arguments.ensemble) as opened:
-        verdicts, remark = check(opened), points_left_out(opened)
+    given = [arguments.ensemble] if arguments.ensemble else []
+    ensembles = _given_or_reference(arguments, given, "claims") or _references(arguments.reference)
+    verdicts, remark = first_tested(ensembles)
     for path in arguments.outputs:
         report.write(verdicts, path, remark)
     if not arguments.outputs:

@@ -51,9 +51,10 @@ def _figure(commands: Commands) -> None:
     command.add_argument(
         "data",
         type=Path,
-        nargs="+",
+        nargs="*",
         help="a file of `ensemble`, or files of `fields`, `event-detail` or `release`",
     )
+    _reference(command, "draw from a reference ensemble of the package, by default the first one")
     _shown(command)
     command.add_argument("--bin-density", type=float, help="factor on the numbers of linear bins")
     options.output(command, "path without suffix, to which .png, .pdf, .csv and .txt are appended")
@@ -76,10 +77,15 @@ def _shown(command: ArgumentParser) -> None:
     command.add_argument("--seed", type=int, help="seed of the sample to show")
 
 
+def _reference(command: ArgumentParser, sentence: str) -> None:
+    command.add_argument("--reference", nargs="?", const="", metavar="STUDY", help=sentence)
+
+
 def _claims(commands: Commands) -> None:
     sentence = "Check the claims of the papers on an ensemble."
     command = options.command(commands, "claims", "collections:claims", sentence)
-    command.add_argument("ensemble", type=Path, help="file of `grainmodes ensemble`")
+    command.add_argument("ensemble", type=Path, nargs="?", help="file of `grainmodes ensemble`")
+    _reference(command, "judge by a reference ensemble of the package, by default by all of them")
     command.add_argument(
         "-o",
         "--outputs",

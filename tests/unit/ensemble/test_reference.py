@@ -1,0 +1,86 @@
+"""Reference ensembles: reduced, checked, and good for figures and claims."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import synthetic
+from grainmodes.claims import first_tested
+from grainmodes.cli import main
+from grainmodes.dataset.files import BlockError
+from grainmodes.ensemble import reference
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("study")
+    return synthetic.ensemble(folder, phis=(0.85, 0.9), kts=(0.0, 1e-4, 1.0), seeds=5)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory, whole) -> Path:
+    """A folder of references that holds one study, `small`."""
+    home = tmp_path_factory.mktemp("references")
+    scene = home / "small_scene.yaml"
+    scene.write_text("study: small\n")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(reference, "FOLDER", home)
+        reference.write_reference(scene, ["g_phi", "dos"], {"ensemble": [whole]})
+    return home
+
+
+def test_series_are_rounded_and_samples_are_kept(whole, folder):
+    with xr.open_dataset(whole) as full, xr.open_dataset(folder / "small/ensemble.nc") as small:
+        assert small.attrs == full.attrs
+        assert set(small.variables) == set(full.variables)
+        np.testing.assert_array_equal(small["g"], full["g"])
+        np.testing.assert_allclose(small["eigenvalue"], full["eigenvalue"], rtol=1e-4)
+        assert not np.array_equal(small["eigenvalue"], full["eigenvalue"], equal_nan=True)
+
+
+def test_verdicts_are_those_of_the_whole_ensemble(whole, folder):
+    kept, _ = first_tested([folder / "small/ensemble.nc"])
+    full, _ = first_tested([whole])
+    assert [(v.claim, v.verdict) for v in kept] == [(v.claim, v.verdict) for v in full]
+    assert {v.verdict for v in kept} > {"not tested"}
+
+
+def test_the_first_ensemble_that_tests_a_claim_decides_it(whole, tmp_path):
+    bare = synthetic.ensemble(tmp_path, phis=(0.9,), kts=(1.0,), stages=("packings", "rigidity"))
+    assert first_tested([bare, whole])[0][7].verdict == first_tested([whole])[0][7].verdict
+
+
+def test_a_changed_file_is_refused(folder, tmp_path, monkeypatch):
+    (tmp_path / "small").mkdir()
+    (tmp_path / reference.INDEX).write_text((folder / reference.INDEX).read_text())
+    (tmp_path / "small/ensemble.nc").write_bytes(
+        (folder / "small/ensemble.nc").read_bytes()[:-1] + b"?"
+    )
+    monkeypatch.setattr(reference, "FOLDER", tmp_path)
+    one = reference.reference_named("small")
+    with pytest.raises(BlockError, match="expected the SHA-256"):
+        reference.files_of(one, "ensemble")
+    with pytest.raises(BlockError, match="holds no fields"):
+        reference.files_of(one, "fields")
+
+
+def test_the_commands_use_it(folder, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(reference, "FOLDER", folder)
+    assert main(["figure", "g_phi", "--reference", "-o", str(tmp_path / "g")]) == 0
+    assert (tmp_path / "g.png").is_file()
+    assert main(["claims", "--reference", "small"]) == 0
+    assert "A2" in capsys.readouterr().out
+    assert main(["claims", "--reference", "large"]) == 1
+    assert "expected one of small, got 'large'" in capsys.readouterr().err
+    assert main(["figure", "g_phi", "x.nc", "--reference", "-o", str(tmp_path / "g")]) == 1
+    assert "expected either files or --reference" in capsys.readouterr().err
+    assert main(["figure", "pair_birth", "--reference", "-o", str(tmp_path / "g")]) == 1
+    assert "no reference ensemble draws the figure pair_birth" in capsys.readouterr().err
+
+
+def test_the_references_of_the_package_are_whole():
+    for one in reference.references().values():
+        for source in one.files:
+            assert reference.files_of(one, source)
