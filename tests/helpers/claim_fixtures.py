@@ -18,6 +18,7 @@ KTS = (0.0, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 2.0, 10.0)
 SEEDS = 16
 JAMMING = 0.84
 SOUND = 3e-4
+FRICTIONAL_N = 128
 POINT = ("n", "phi", "kt", "seed")
 STRAINS = (1e-6, 1e-5, 1e-4)
 
@@ -28,7 +29,7 @@ def ensemble() -> xr.Dataset:
     dataset = xr.Dataset(coords=coordinates, attrs={"config": "{}"})
     for build in (_samples, _moduli, _spectra, _rattlers, count_hessian, _probes):
         build(dataset)
-    return dataset
+    return _with_frictional_packings(dataset)
 
 
 def set_moduli(dataset: xr.Dataset, g: xr.DataArray) -> None:
@@ -163,5 +164,15 @@ def _probes(dataset: xr.Dataset) -> None:
     dataset["diagnostic_strain"] = one * xr.DataArray(np.array(STRAINS), dims="diagnostic")
     dataset["verlet_order_position"] = 2.0 * noise(dataset, 0.01) * one
     dataset["verlet_order_velocity"] = 1.0 * noise(dataset, 0.01) * one
-    dataset["complex_pairs_frictional"] = 3.0 * one
-    dataset["jammed_frictional"] = one.copy()
+
+
+def _with_frictional_packings(dataset: xr.Dataset) -> xr.Dataset:
+    """The dataset with packings of another N, compressed with friction; they have complex pairs."""
+    dataset["compressed_with_friction"] = 0.0 * ones(dataset)
+    dataset["complex_pairs_at_rest"] = 0.0 * ones(dataset)
+    whole = dataset.reindex(n=[*NS, FRICTIONAL_N])
+    there = {"n": FRICTIONAL_N, "phi": PHIS[-1], "kt": 1.0}
+    for name in ("converged", "jammed", "compressed_with_friction"):
+        whole[name].loc[there] = 1.0
+    whole["complex_pairs_at_rest"].loc[there] = 3.0
+    return whole

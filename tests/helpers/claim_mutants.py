@@ -117,7 +117,7 @@ def other_order(ensemble):
 
 
 def no_pairs(ensemble):
-    ensemble["complex_pairs_frictional"] = 0.0 * ensemble["complex_pairs_frictional"]
+    ensemble["complex_pairs_at_rest"] = 0.0 * ensemble["complex_pairs_at_rest"]
 
 
 MUTANTS = {

@@ -61,8 +61,6 @@ CONSTANTS = {
     ("parameters.release", "DENSE_RECORDS_ONSET"): AREA,
     ("protocols.pair_tracking.linear_range", "MAX_GAP"): LENGTH,
     ("protocols.release.simulated_growth", "AMPLITUDE"): LENGTH,
-    ("protocols.compression.frictional_compression", "TIME_STEP"): TIME,
-    ("protocols.compression.frictional_compression", "VISCOSITY"): VISCOSITY,
     ("relaxation.accuracy", "TIME_STEP"): TIME,
     ("relaxation.accuracy", "AMPLITUDE"): LENGTH,
     ("spectrum.full", "ZERO_MODE_CUTOFF"): MODULUS,

@@ -81,20 +81,36 @@ def data_of_figure(wildcards):
     return rules.ensemble.output if source == "ensemble" else samples_of(source)
 
 
-def checkpoint_below(wildcards):
+def checkpoint_below(wildcards, file=BLOCK):
     """The checkpoint that a checkpoint starts from; none for the lowest."""
     below = round(float(wildcards.phi) - CHECKPOINT_SPACING, 12)
-    return [] if below < LOWEST_CHECKPOINT else checkpoint(wildcards, below)
+    return [] if below < LOWEST_CHECKPOINT else checkpoint(wildcards, below, file)
 
 
-def checkpoint_for(wildcards):
+def checkpoint_for(wildcards, file=BLOCK):
     """The checkpoint that packings start from."""
-    return checkpoint(wildcards, checkpoint_at_or_below(float(wildcards.phi)))
+    return checkpoint(wildcards, checkpoint_at_or_below(float(wildcards.phi)), file)
 
 
-def checkpoint(wildcards, phi):
+def frictional_checkpoint_below(wildcards):
+    """The same for a compression with friction, whose files belong to one k_T."""
+    return checkpoint_below(wildcards, RESPONSE)
+
+
+def frictional_checkpoint_for(wildcards):
+    """The same for packings compressed with friction."""
+    return checkpoint_for(wildcards, RESPONSE)
+
+
+def checkpoint(wildcards, phi, file):
     names = dict(wildcards.items()) | {"phi": format_value(phi)}
-    return f"{STUDY}/trajectories/{BLOCK}".format(**names)
+    return f"{STUDY}/trajectories/{file}".format(**names)
+
+
+def packings_file(wildcards):
+    """The packings of a point: those compressed with friction belong to one k_T."""
+    frictional = scene.preparation_of(*point_of(wildcards)) == "frictional"
+    return f"{STUDY}/packings/{RESPONSE if frictional else BLOCK}"
 
 
 def point_of(wildcards):
@@ -107,7 +123,7 @@ def blocks_of_point(wildcards):
     point, names = point_of(wildcards), dict(wildcards.items())
     stages = [STAGES[stage] for stage in scene.responses(*point)]
     folders = [stage.output for stage in stages if not stage.single_sample]
-    files = [f"{STUDY}/packings/{BLOCK}", *(f"{STUDY}/{folder}/{RESPONSE}" for folder in folders)]
+    files = [packings_file(wildcards), *(f"{STUDY}/{folder}/{RESPONSE}" for folder in folders)]
     single = [f"{STUDY}/{stage.output}/{POINT}" for stage in stages if stage.single_sample]
     return expand(files, seeds=scene.blocks_of(*point), **names) + expand(single, **names)
 
@@ -115,15 +131,14 @@ def blocks_of_point(wildcards):
 def block_read_by(stage):
     """What a stage takes: the block of the same seeds, or the first one for a single sample."""
     read = STAGES[stage.reads]
-    path = f"{STUDY}/{read.output}/{RESPONSE if read.observable else BLOCK}"
-    if not stage.single_sample:
-        return path
 
-    def first_block(wildcards):
-        first = scene.blocks_of(*point_of(wildcards))[0]
-        return path.format(seeds=first, **dict(wildcards.items()))
+    def block(wildcards):
+        responses = f"{STUDY}/{read.output}/{RESPONSE}"
+        path = responses if read.observable else packings_file(wildcards)
+        first = {"seeds": scene.blocks_of(*point_of(wildcards))[0]} if stage.single_sample else {}
+        return path.format(**dict(wildcards.items()) | first)
 
-    return first_block
+    return block
 
 
 def output_of(stage):

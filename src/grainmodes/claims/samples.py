@@ -79,6 +79,11 @@ class Samples:
         # A Variable has no coordinates. Aligning them would take most of the time.
         return self.ensemble[name].variable.isel(n=self._place("n", self.n))
 
+    def with_friction(self) -> bool:
+        """Whether the packings were compressed with friction, as paper B does it."""
+        name = "compressed_with_friction"
+        return name in self.ensemble and bool((self._rows(name) == 1).any())
+
     def _used(self) -> xr.Variable:
         return (self._rows("converged") == 1) & (self._rows("jammed") == 1)
 
@@ -86,8 +91,11 @@ class Samples:
         return self.ensemble[axis].to_numpy().tolist().index(value)
 
 
-def best_sampled(ensemble: xr.Dataset, *names: str) -> Samples:
+def best_sampled(ensemble: xr.Dataset, *names: str, with_friction: bool | None = False) -> Samples:
     """The samples of the N that has all the variables at most points; of several, the largest N.
+
+    Args:
+        with_friction: as in `samples_by_size`.
 
     Raises:
         NotTested: the ensemble lacks one of the variables, or samples of them.
@@ -97,11 +105,17 @@ def best_sampled(ensemble: xr.Dataset, *names: str) -> Samples:
         points = set.intersection(*(set(samples.points(name)) for name in names))
         return len(points), samples.n
 
-    return max(samples_by_size(ensemble, *names), key=shared)
+    return max(samples_by_size(ensemble, *names, with_friction=with_friction), key=shared)
 
 
-def samples_by_size(ensemble: xr.Dataset, *names: str) -> list[Samples]:
+def samples_by_size(
+    ensemble: xr.Dataset, *names: str, with_friction: bool | None = False
+) -> list[Samples]:
     """The samples of every N that has all the variables, N ascending.
+
+    Args:
+        with_friction: whether the packings were compressed with friction; None: either way. All
+            packings of one N are of one kind.
 
     Raises:
         NotTested: the ensemble lacks one of the variables, or samples of them.
@@ -111,8 +125,11 @@ def samples_by_size(ensemble: xr.Dataset, *names: str) -> list[Samples]:
         raise NotTested(", ".join(absent))
     found = [Samples(ensemble, n) for n in ensemble["n"].to_numpy().tolist()]
     found = [samples for samples in found if all(samples.points(name) for name in names)]
+    if with_friction is not None:
+        found = [samples for samples in found if samples.with_friction() == with_friction]
     if not found:
-        raise NotTested(f"jammed samples with {', '.join(names)}")
+        kind = {None: "", False: "", True: " compressed with friction"}[with_friction]
+        raise NotTested(f"jammed samples{kind} with {', '.join(names)}")
     return found
 
 

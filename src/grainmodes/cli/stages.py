@@ -17,38 +17,40 @@ from grainmodes.stages import load
 
 def compress(arguments: Namespace) -> None:
     """Random grains, or the checkpoint below → a checkpoint."""
-    from grainmodes.stages.compression import compress_block
-
-    check_point(n=arguments.n, phi=arguments.phi)
-    settings = stage_settings(arguments.settings)
-    opened = _opened(arguments.start, STAGES["compress"]) if arguments.start else nullcontext()
+    stage, keywords = _compression(arguments)
+    keywords |= {name: getattr(arguments, name) for name in ("n", "seeds", "phi")}
+    opened = _opened(arguments.start, stage) if arguments.start else nullcontext()
     with opened as start:
-        block = compress_block(
-            arguments.n,
-            arguments.seeds,
-            arguments.phi,
-            settings.protocol.compression,
-            settings.law.normal,
-            start,
-        )
+        block = load(stage.function)(start=start, **keywords)
     write_block(arguments.output, block)
 
 
 def equilibrate(arguments: Namespace) -> None:
     """A checkpoint → packings."""
-    from grainmodes.stages.compression import packing_block
-
-    check_point(phi=arguments.phi)
-    settings = stage_settings(arguments.settings)
-    compression, normal = settings.protocol.compression, settings.law.normal
-    with _opened(arguments.start, STAGES["compress"]) as start:
-        block = packing_block(start, arguments.phi, compression, normal)
+    stage, keywords = _compression(arguments)
+    with _opened(arguments.start, STAGES[stage.reads]) as start:
+        block = load(stage.function)(start=start, phi=arguments.phi, **keywords)
     write_block(arguments.output, block)
+
+
+def _compression(arguments: Namespace) -> tuple[Stage, dict[str, object]]:
+    """A stage of a compression, and the law and the choices that it takes."""
+    stage = _stage(arguments)
+    kt = arguments.kt if stage.needs_friction else 0.0
+    check_point(getattr(arguments, "n", None), arguments.phi, kt)
+    settings = stage_settings(arguments.settings, kt)
+    law = {"law": settings.law} if stage.needs_friction else {"normal": settings.law.normal}
+    return stage, law | stage.keywords(settings.protocol, settings.observables)
+
+
+def _stage(arguments: Namespace) -> Stage:
+    """The stage of a command."""
+    return STAGES[arguments.name.replace("-", "_")]
 
 
 def response(arguments: Namespace) -> None:
     """A block → the block of a stage of `parameters.stages`."""
-    stage = STAGES[arguments.name.replace("-", "_")]
+    stage = _stage(arguments)
     check_point(kt=arguments.kt)
     if stage.needs_friction and not arguments.kt > 0.0:
         raise ConfigurationError(f"--kt: expected a number above 0, got {arguments.kt:g}")
@@ -94,6 +96,7 @@ def point(arguments: Namespace) -> None:
         arguments.seeds,
         settings.protocol,
         settings.observables,
+        arguments.preparation,
     )
     write_block(arguments.output, block)
 

@@ -13,6 +13,8 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from grainmodes.configuration.grids import Grid
+from grainmodes.parameters.spectra import BINNED
+from grainmodes.parameters.stages import responses
 
 AREA_PER_GRAIN = math.pi / 8 * (1 + 1 / 1.4**2)
 """Mean area of a grain, in d^2."""
@@ -25,7 +27,7 @@ def grid_conflicts(config: dict) -> Iterator[str]:
     """One sentence per conflict in and between the grids of a complete configuration."""
     wrong_kt = list(_friction(config))
     yield from wrong_kt
-    for rule in (_boxes, _blocks, _rattlers):
+    for rule in (_boxes, _blocks, _rattlers, _preparations, _springs_at_rest):
         yield from rule(config)
     if not wrong_kt:
         yield from _points(config)
@@ -98,4 +100,38 @@ def _rattlers(config: dict) -> Iterator[str]:
             yield (
                 f"grids[{place}].observables.spectrum: expected eigenvalues or modes because "
                 f"observables.rattlers is true, got {kind}"
+            )
+
+
+def _preparations(config: dict) -> Iterator[str]:
+    """Compression with friction needs friction, and no curve mixes packings of both kinds."""
+    grids = list(enumerate(config["grids"]))
+    for place, grid in grids:
+        if grid["preparation"] == "frictional" and 0.0 in grid.get("kt", [0.0]):
+            yield (
+                f"grids[{place}].preparation: expected 'frictionless' at kt = 0, got 'frictional'"
+            )
+    for (first, one), (second, other) in combinations(grids, 2):
+        shared = sorted(set(one["n"]) & set(other["n"]))
+        if shared and one["preparation"] != other["preparation"]:
+            yield (
+                f"grids[{second}].preparation: expected {one['preparation']!r} as in "
+                f"grids[{first}], because both hold n = {shared[0]}, got {other['preparation']!r}"
+            )
+
+
+def _springs_at_rest(config: dict) -> Iterator[str]:
+    """Compression with friction loads the springs, so that J is not symmetric."""
+    for place, grid in enumerate(config["grids"]):
+        if grid["preparation"] == "frictionless":
+            continue
+        why = "because preparation is 'frictional' and loads the springs"
+        observables = grid["observables"]
+        for stage in responses():
+            if stage.needs_springs_at_rest and observables[stage.observable]:
+                yield f"grids[{place}].observables.{stage.observable}: expected false {why}"
+        if observables["spectrum"] in BINNED:
+            yield (
+                f"grids[{place}].observables.spectrum: expected none, eigenvalues or modes {why}, "
+                f"got {observables['spectrum']}"
             )

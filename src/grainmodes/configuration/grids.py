@@ -31,13 +31,17 @@ def offered(observables: Observables) -> set[str]:
 
 @dataclass(frozen=True)
 class Grid:
-    """All combinations of `n`, `phi` and `kt`, with the samples 0 … `seeds` − 1 each."""
+    """All combinations of `n`, `phi` and `kt`, with the samples 0 … `seeds` − 1 each.
+
+    `preparation` is one of `parameters.compression.PREPARATIONS`.
+    """
 
     n: tuple[int, ...]
     phi: tuple[float, ...]
     kt: tuple[float, ...]
     seeds: int
     observables: Observables
+    preparation: str
 
     @classmethod
     def from_config(cls, config: dict) -> Grid:
@@ -48,6 +52,7 @@ class Grid:
             kt=tuple(map(float, config.get("kt", [0.0]))),
             seeds=int(config["seeds"]),
             observables=MappingProxyType(dict(config["observables"])),
+            preparation=config["preparation"],
         )
 
     @property

@@ -68,6 +68,10 @@ class Scene:
         """Names of the stages that a point requests, beside its packings."""
         return self.grid_at(n, phi, kt).stages(kt)
 
+    def preparation_of(self, n: int, phi: float, kt: float) -> str:
+        """How the packings of a point are compressed."""
+        return self.grid_at(n, phi, kt).preparation
+
     def law_at(self, kt: float) -> ContactLaw:
         """The contact law with this tangential stiffness."""
         return replace(self.law, kt=kt)
@@ -81,8 +85,9 @@ class Scene:
         """
         entry = STAGES[stage]
         protocol = asdict(self.protocol)
+        knows_kt = entry.observable or entry.needs_friction
         part: dict[str, dict[str, object]] = {
-            "contact_law": self._law() if entry.observable else {"normal": self.law.normal},
+            "contact_law": self._law() if knows_kt else {"normal": self.law.normal},
             "protocol": {name: protocol[name] for name in entry.parts("protocol")},
         }
         names = entry.parts("observables")

@@ -56,6 +56,7 @@ class Table:
     machine: str
     laws: dict[str, GrowthLaw]
     climb: dict[float, float]
+    frictional_climb: dict[float, float]
     compression: dict[str, float]
     job: dict[str, float]
     disk: dict[str, float]
@@ -64,15 +65,18 @@ class Table:
         """The growth law of a stage or of a kind of work; a guess where it was never measured."""
         return self.laws.get(name, UNMEASURED)
 
-    def share(self, phi: float) -> float:
+    def share(self, phi: float, with_friction: bool = False) -> float:
         """Part of a trajectory to φ = 0.90 that lies below φ, linear between rows of `climb`."""
-        pairs = list(pairwise(sorted(self.climb.items())))
+        climb = self.frictional_climb if with_friction else self.climb
+        pairs = list(pairwise(sorted(climb.items())))
         (low, start), (high, stop) = next((p for p in pairs if phi <= p[1][0]), pairs[-1])
         return start + (stop - start) * (phi - low) / (high - low)
 
-    def slowdown(self, compression: Compression) -> float:
+    def slowdown(self, compression: Compression, with_friction: bool = False) -> float:
         """Factor on the time of a trajectory for other choices than the default ones."""
         steps = compression.phi_step / self.compression["phi_step"]
+        if with_friction:
+            return steps ** self.compression["frictional_step_exponent"]
         return self.compression[compression.relaxation] * steps ** self.compression["step_exponent"]
 
 

@@ -33,13 +33,8 @@ NAMES = {
     "verlet_order_velocity": Variable(
         BLOCK, "f8", NUMBER, "order in the time step up to which velocity Verlet is exact in dq/dt"
     ),
-    "complex_pairs_frictional": Variable(
-        BLOCK,
-        "f8",
-        NUMBER,
-        "number of complex pairs of eigenvalues of J / M after compression with friction",
+    "complex_pairs_at_rest": Variable(
+        BLOCK, "f8", NUMBER, "number of complex pairs of eigenvalues of J / M before any strain"
     ),
-    "jammed_frictional": Variable(
-        BLOCK, "f8", NUMBER, "1 if the state compressed with friction is jammed, else 0"
-    ),
+    "asymmetry_at_rest": Variable(BLOCK, "f8", NUMBER, "max |J - J^T| / max |J| before any strain"),
 }

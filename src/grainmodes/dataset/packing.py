@@ -53,6 +53,9 @@ NAMES = {
         BLOCK, "f8", NUMBER, "mean number of contacts of the grains that are not rattlers"
     ),
     "rattler_count": Variable(BLOCK, "i8", NUMBER, "number of rattlers"),
+    "compressed_with_friction": Variable(
+        BLOCK, "i1", NUMBER, "1 if the packing was compressed with friction, else 0"
+    ),
     "phi_jamming": Variable(
         BLOCK, "f8", NUMBER, "highest phi of the trajectory at which the packing was not yet jammed"
     ),

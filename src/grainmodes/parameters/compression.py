@@ -6,6 +6,9 @@ from dataclasses import dataclass
 
 RELAXATIONS = ("fire_newton", "fire")
 
+PREPARATIONS = ("frictionless", "frictional")
+"""How the packings of a grid are compressed: as A does it, or as B does it."""
+
 
 @dataclass(frozen=True)
 class Compression:
@@ -25,3 +28,18 @@ class Compression:
     max_iterations: int = 20_000_000
     large_diameter: float = 1.0
     masses: str = "area"
+
+
+@dataclass(frozen=True)
+class FrictionalCompression:
+    """How each step of φ is relaxed where grains are compressed with friction (B, Sec. II).
+
+    The damped dynamics has the background drag `drag` = η_D, and the time step `time_step` where
+    k_T ≤ k_N; beyond, it is shorter by (k_N/k_T)^(1/2), as the fastest oscillation is. A step of φ
+    ends where max|F̃| is the part `balance` of the mean contact force, or after `max_steps`.
+    """
+
+    drag: float = 1.0
+    time_step: float = 0.1
+    balance: float = 1e-2
+    max_steps: int = 20_000

@@ -31,6 +31,12 @@ class Rattlers:
 
     threshold: int = 2
 
-    def largest(self, law: ContactLaw) -> int:
-        """Most contacts of a rattler; without friction two carry no load whatever is asked."""
+    def largest(self, law: ContactLaw, springs_at_rest: bool = True) -> int:
+        """Most contacts of a rattler.
+
+        Without friction two contacts carry no load, whatever is asked. Where friction has loaded
+        the springs, two contacts can hold a grain, which then is not a rattler.
+        """
+        if not springs_at_rest:
+            return min(self.threshold, 1)
         return self.threshold if law.frictional else max(self.threshold, 2)

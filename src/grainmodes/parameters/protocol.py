@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from grainmodes.parameters.complex_pairs import PairChoices
-from grainmodes.parameters.compression import Compression
+from grainmodes.parameters.compression import Compression, FrictionalCompression
 from grainmodes.parameters.law import Rattlers
 from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import SpectrumChoices
@@ -18,6 +18,7 @@ class Protocol:
     """Every numerical choice of a study, with its default."""
 
     compression: Compression = field(default_factory=Compression)
+    frictional_compression: FrictionalCompression = field(default_factory=FrictionalCompression)
     step_strain: StepStrain = field(default_factory=StepStrain)
     shear: Shear = field(default_factory=Shear)
     complex_pairs: PairChoices = field(default_factory=PairChoices)
@@ -32,6 +33,7 @@ class Protocol:
         release["dampings"] = tuple(release["dampings"])
         return cls(
             Compression(**config["compression"]),
+            FrictionalCompression(**config["frictional_compression"]),
             StepStrain(**config["step_strain"]),
             Shear(**config["shear"]),
             PairChoices(**config["complex_pairs"]),

@@ -30,6 +30,7 @@ class Stage:
         folder: of its files; its name if empty.
         work: how the number of units of its growth law is counted, a key of `cost.work.UNITS`.
         needs_friction: it does not exist at k_T = 0.
+        needs_springs_at_rest: it does not exist for packings compressed with friction.
         single_sample: it keeps the grains of the first sample, to be drawn; a point gathers only
             why that sample was lost, if it was.
         parallel: processes can share one sample of it.
@@ -48,6 +49,7 @@ class Stage:
     folder: str = ""
     work: str = "sample"
     needs_friction: bool = False
+    needs_springs_at_rest: bool = False
     single_sample: bool = False
     parallel: bool = False
     resumable: bool = False

@@ -23,6 +23,10 @@ from collections.abc import Iterable
 from grainmodes.parameters.spectra import SPECTRA
 from grainmodes.parameters.stage import Observables, Stage
 
+WITH_FRICTION = {
+    "compression": "protocol.compression",
+    "choices": "protocol.frictional_compression",
+}
 SPECTRUM = {"choices": "protocol.spectrum"}
 
 ENTRIES = (
@@ -41,6 +45,24 @@ ENTRIES = (
         arguments={"compression": "protocol.compression"},
         folder="packings",
         reads="compress",
+    ),
+    Stage(
+        "compress_with_friction",
+        "Compress grains with friction to a checkpoint of a trajectory (paper B).",
+        "grainmodes.stages.frictional_compression:frictional_compress_block",
+        arguments=WITH_FRICTION,
+        folder="trajectories",
+        reads="compress_with_friction",
+        needs_friction=True,
+    ),
+    Stage(
+        "equilibrate_with_friction",
+        "Bring a checkpoint of a compression with friction to an area fraction, in force balance.",
+        "grainmodes.stages.frictional_compression:frictional_packing_block",
+        arguments=WITH_FRICTION,
+        folder="packings",
+        reads="compress_with_friction",
+        needs_friction=True,
     ),
     Stage(
         "rigidity",
@@ -134,6 +156,7 @@ ENTRIES = (
         arguments={"choices": "protocol.shear"},
         work="usual steps",
         needs_friction=True,
+        needs_springs_at_rest=True,
     ),
     Stage(
         "fields",
@@ -142,6 +165,7 @@ ENTRIES = (
         "fields",
         arguments={"rattlers": "protocol.rattlers", "step": "protocol.step_strain"},
         single_sample=True,
+        needs_springs_at_rest=True,
     ),
     Stage(
         "event_detail",
@@ -164,7 +188,12 @@ def responses() -> list[Stage]:
 
 def gathered() -> list[Stage]:
     """The stages whose blocks a point gathers, in the order in which names win."""
-    return [stage for stage in STAGES.values() if stage.name != "compress"]
+    return [STAGES["equilibrate"], *responses()]
+
+
+def packings_stage(preparation: str) -> Stage:
+    """The stage that makes the packings of a preparation, one of `PREPARATIONS`."""
+    return STAGES["equilibrate" if preparation == "frictionless" else "equilibrate_with_friction"]
 
 
 def requested(observables: Observables, kt: float) -> list[Stage]:

@@ -6,13 +6,13 @@
 | A16  g does not depend on Δγ                 | forward step strains of three sizes    |
 | A17  translational modes alone give g        | mode sum over ψ^T > 1/2                |
 | A18  velocity Verlet is right to Δt² and Δt  | one step against 32 short ones         |
-| A19  compressed with friction: complex pairs | frictional compression, then λ of M⁻¹J |
+| A19  compressed with friction: complex pairs | λ of M⁻¹J, and J − Jᵀ                  |
 
 A diagnostic that fails leaves NaN in its place and its sentence among the failures; the row counts
 as converged all the same, so that the sample is not lost for the other observables. NaN also stands
-for what does not exist: at k_T = 0 there is no velocity Verlet and no compression with friction,
-and large packings have no dense matrices (`MAX_DENSE_GRAINS`, `MAX_COMPRESSED_GRAINS`). A packing
-that is not jammed has g = 0, and it does not jam when it is expanded and compressed again.
+for what does not exist: at k_T = 0 there is no velocity Verlet, a sum over modes needs a symmetric
+J, and large packings have no dense matrices (`MAX_DENSE_GRAINS`, `MAX_PAIR_GRAINS`). A packing that
+is not jammed has g = 0 and no pairs.
 """
 
 from __future__ import annotations
@@ -28,17 +28,16 @@ from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.hessian import effective_hessian
 from grainmodes.packing.jacobian import jacobian
-from grainmodes.packing.state import Packing
+from grainmodes.packing.state import Packing, backbone
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
-from grainmodes.protocols.compression.frictional_compression import frictional_compression
 from grainmodes.protocols.shear.step_strain import forward_rigidity
 from grainmodes.relaxation.accuracy import step_orders
 from grainmodes.response.mode_sum import ModeRigidity
-from grainmodes.response.stability import count_complex_pairs
+from grainmodes.response.stability import asymmetry, count_complex_pairs
 from grainmodes.spectrum import packing_spectrum
 from grainmodes.stages.rows import SAMPLE_ERRORS, response_block
-from grainmodes.stages.samples import jammed_packing
+from grainmodes.stages.samples import jammed_packing, springs_at_rest
 
 STRAINS = (1e-6, 1e-5, 1e-4)
 """Δγ of claim A16."""
@@ -46,8 +45,8 @@ STRAINS = (1e-6, 1e-5, 1e-4)
 MAX_DENSE_GRAINS = 1024
 """Most grains of which all eigenvectors are computed."""
 
-MAX_COMPRESSED_GRAINS = 256
-"""Most grains that are compressed with friction."""
+MAX_PAIR_GRAINS = 512
+"""Most grains of which all eigenvalues of a matrix that is not symmetric are computed."""
 
 
 class Attempts:
@@ -69,12 +68,13 @@ def claim_diagnostics_block(
     packings: Block, law: ContactLaw, rattlers: Rattlers, step: StepStrain
 ) -> Block:
     """All diagnostics of every packing; a packing that is not in balance has no numbers."""
+    threshold = rattlers.largest(law, springs_at_rest(packings))
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, Interaction.from_law(law))
         attempt = Attempts()
         if jammed:
-            row = diagnostics_row(packing, law, rattlers, step, attempt)
+            row = diagnostics_row(packing, law, threshold, step, attempt)
         else:
             row = unjammed_row(packing, law)
         failures = {"failures": "; ".join(attempt.sentences)} if attempt.sentences else {}
@@ -89,16 +89,19 @@ def unjammed_row(packing: Packing, law: ContactLaw) -> dict[str, object]:
     row: dict[str, object] = {"g_forward_by_strain": np.zeros(len(STRAINS))}
     if packing.n <= MAX_DENSE_GRAINS:
         row |= {"g_translational": 0.0}
-    if law.frictional and packing.n <= MAX_COMPRESSED_GRAINS:
-        row |= {"complex_pairs_frictional": 0, "jammed_frictional": 0}
+    if law.frictional and packing.n <= MAX_PAIR_GRAINS:
+        row["complex_pairs_at_rest"] = 0
     return row
 
 
 def diagnostics_row(
-    packing: Packing, law: ContactLaw, rattlers: Rattlers, step: StepStrain, attempt: Attempts
+    packing: Packing, law: ContactLaw, threshold: int, step: StepStrain, attempt: Attempts
 ) -> dict[str, object]:
-    """The row of a jammed packing, in which a diagnostic that fails is NaN."""
-    interaction, threshold = Interaction.from_law(law), rattlers.largest(law)
+    """The row of a jammed packing, in which a diagnostic that fails is NaN.
+
+    `threshold` is the largest number of contacts of a rattler.
+    """
+    interaction = Interaction.from_law(law)
     row = {
         "g_forward_by_strain": [
             attempt(np.nan, forward_rigidity, packing, interaction, sized, threshold)
@@ -109,15 +112,15 @@ def diagnostics_row(
             np.nan, hessian_difference, packing, interaction, "printed"
         ),
     }
-    if packing.n <= MAX_DENSE_GRAINS:
+    if packing.n <= MAX_DENSE_GRAINS and packing.history is None:
         row["g_translational"] = attempt(
             np.nan, translational_rigidity, packing, interaction, threshold
         )
-    return row | _frictional(packing, law, step, attempt)
+    return row | _frictional(packing, law, threshold, step, attempt)
 
 
 def _frictional(
-    packing: Packing, law: ContactLaw, step: StepStrain, attempt: Attempts
+    packing: Packing, law: ContactLaw, threshold: int, step: StepStrain, attempt: Attempts
 ) -> dict[str, object]:
     """The diagnostics of a packing whose grains have velocities and springs."""
     if not law.frictional:
@@ -125,11 +128,11 @@ def _frictional(
     interaction = Interaction.from_law(law)
     orders = attempt((np.nan, np.nan), step_orders, packing, interaction, Dashpot(step.damping))
     row = dict(zip(("verlet_order_position", "verlet_order_velocity"), orders, strict=True))
-    if packing.n > MAX_COMPRESSED_GRAINS:
-        return row
-    names = ("complex_pairs_frictional", "jammed_frictional")
-    found = attempt((np.nan, np.nan), compressed_pairs, packing, interaction, step.force_tolerance)
-    return row | dict(zip(names, found, strict=True))
+    rigid = backbone(packing, threshold)
+    row["asymmetry_at_rest"] = asymmetry(jacobian(rigid, interaction))
+    if packing.n <= MAX_PAIR_GRAINS:
+        row["complex_pairs_at_rest"] = attempt(np.nan, pairs_at_rest, rigid, interaction)
+    return row
 
 
 def translational_rigidity(packing: Packing, interaction: Interaction, threshold: int) -> float:
@@ -148,9 +151,6 @@ def hessian_difference(packing: Packing, interaction: Interaction, stiffness: st
     return float(abs(difference).max() / abs(matrix).max())
 
 
-def compressed_pairs(
-    packing: Packing, interaction: Interaction, tolerance: float
-) -> tuple[int, bool]:
-    """Number of complex pairs of the packing compressed with friction, and whether it is jammed."""
-    found = frictional_compression(packing, interaction, tolerance)
-    return (count_complex_pairs(found.packing, interaction) if found.jammed else 0), found.jammed
+def pairs_at_rest(rigid: Packing, interaction: Interaction) -> int:
+    """Number of complex pairs of a packing without rattlers; a symmetric J has none."""
+    return 0 if rigid.history is None else count_complex_pairs(rigid, interaction)

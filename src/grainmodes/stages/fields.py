@@ -19,7 +19,7 @@ from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain_field import simulated_field
 from grainmodes.response.fields import affine_field, mode_sum_field, nearest_modes, nonaffine_field
 from grainmodes.stages.rows import response_block
-from grainmodes.stages.samples import first_sample, jammed_packing
+from grainmodes.stages.samples import first_sample, jammed_packing, springs_at_rest
 
 
 def fields_block(
@@ -29,7 +29,10 @@ def fields_block(
     step: StepStrain,
 ) -> Block:
     """The fields of the first sample of a block, and its modes nearest to A's frequencies."""
-    interaction, threshold = Interaction.from_law(law), rattlers.largest(law)
+    interaction, threshold = (
+        Interaction.from_law(law),
+        rattlers.largest(law, springs_at_rest(packings)),
+    )
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, interaction)

@@ -30,6 +30,8 @@ def law_comparison_block(packings: Block, law: ContactLaw, choices: Shear) -> Bl
         packing, jammed = jammed_packing(packings, number, Interaction.from_law(law))
         if not jammed:
             return {"comparison_count": 0, "jammed": False, "converged": True}
+        if packing.history is not None:
+            raise ValueError("comparison of laws: expected springs at rest, got loaded ones")
         if packing.n > MAX_GRAINS:
             raise ValueError(f"expected at most {MAX_GRAINS} grains, got {packing.n}")
         return comparison_row(shear_under_all_laws(packing, law, choices))

@@ -7,53 +7,77 @@ from collections.abc import Mapping
 import numpy as np
 
 from grainmodes.dataset.files import Block
-from grainmodes.kernels.laws import Frictionless, Interaction, NormalLaw
+from grainmodes.kernels.laws import Frictionless, Interaction, NormalLaw, TangentialLaw
+from grainmodes.packing.contact_count import may_be_rigid, most_contacts_of_rattler
 from grainmodes.packing.contacts import History
-from grainmodes.packing.forces import max_force_and_torque, mean_contact_force, net_force, stress
+from grainmodes.packing.forces import (
+    is_frictionless,
+    max_force_and_torque,
+    mean_contact_force,
+    net_force,
+    stress,
+)
 from grainmodes.packing.state import Packing, backbone
+
+FRICTIONLESS = Frictionless()
 
 MIN_LOAD_RATIO = 1e3
 """Least mean contact force of a jammed packing, relative to the largest net force on a grain."""
 
 
-def packing_row(packing: Packing, normal: NormalLaw) -> dict[str, object]:
-    """The row of a packing at rest, without friction."""
-    interaction = Interaction(normal, Frictionless())
-    contacts, rigid = packing.contacts, backbone(packing, threshold=2)
-    force, _ = max_force_and_torque(net_force(packing, interaction))
+def packing_row(
+    packing: Packing, normal: NormalLaw, tangential: TangentialLaw = FRICTIONLESS
+) -> dict[str, object]:
+    """The row of a packing at rest, compressed under these laws."""
+    interaction = Interaction(normal, tangential)
+    rigid = backbone(packing, most_contacts_of_rattler(packing))
+    force, torque = max_force_and_torque(net_force(packing, interaction))
     return grain_columns(packing) | {
         "position": packing.position,
-        "contact_i": contacts.i,
-        "contact_j": contacts.j,
+        "contact_i": packing.contacts.i,
+        "contact_j": packing.contacts.j,
         "pressure": -float(np.trace(stress(packing, interaction))) / 2.0,
         "contact_number": 2.0 * len(rigid.contacts.i) / rigid.n if rigid.n else 0.0,
         "rattler_count": packing.n - rigid.n,
-        "jammed": is_jammed(packing, interaction, force),
+        "jammed": is_jammed(packing, interaction, max(force, torque)),
         "max_force": force,
+        "max_torque": torque,
+        "compressed_with_friction": not is_frictionless(interaction),
     }
 
 
 def grain_columns(packing: Packing) -> dict[str, object]:
-    """What defines a packing without springs: its exact fractions, its grains and its box."""
+    """What defines a packing: its exact fractions, its grains, its box, and its loaded springs."""
     return {
         "fraction": packing.fraction.T,
         "diameter": packing.diameter,
         "mass": packing.mass,
         "box_length": packing.box_length,
         "strain": packing.strain,
+        **_springs(packing),
+    }
+
+
+def _springs(packing: Packing) -> dict[str, object]:
+    """The springs of the contacts; nothing where friction was never loaded."""
+    if packing.history is None:
+        return {}
+    contacts = packing.contacts
+    return {
+        "contact_i": contacts.i,
+        "contact_j": contacts.j,
+        "spring_state": contacts.springs,
     }
 
 
 def is_jammed(packing: Packing, interaction: Interaction, max_force: float) -> bool:
     """Whether a rigid backbone carries the load.
 
-    The N' grains that are not rattlers must have at least the 2N' − 1 contacts of an isostatic
-    packing under pressure, and contact forces far above `max_force`, the largest net force that
-    the relaxation left on a grain.
+    Its contact forces must lie far above `max_force`, the largest net force that the relaxation
+    left on a grain.
     """
-    rigid = backbone(packing, threshold=2)
     loaded = mean_contact_force(packing, interaction) > MIN_LOAD_RATIO * max_force
-    return rigid.n > 0 and len(rigid.contacts.i) >= 2 * rigid.n - 1 and loaded
+    return loaded and may_be_rigid(packing)
 
 
 def packing_in_row(block: Block, number: int) -> Packing:

@@ -10,7 +10,7 @@ from grainmodes.packing.forces import max_force_and_torque, net_force
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.response.moduli import Moduli, rigidity
 from grainmodes.stages.rows import response_block
-from grainmodes.stages.samples import jammed_packing
+from grainmodes.stages.samples import jammed_packing, springs_at_rest
 
 
 def rigidity_block(packings: Block, law: ContactLaw, rattlers: Rattlers) -> Block:
@@ -24,7 +24,7 @@ def rigidity_block(packings: Block, law: ContactLaw, rattlers: Rattlers) -> Bloc
         row |= {"max_force": force[0], "max_torque": force[1]}
         if not jammed:
             return row | dict.fromkeys([*_moduli_names(""), *_moduli_names("_loaded")], 0.0)
-        moduli = rigidity(packing, interaction, rattlers.largest(law))
+        moduli = rigidity(packing, interaction, rattlers.largest(law, springs_at_rest(packings)))
         return row | _moduli("", moduli.unloaded) | _moduli("_loaded", moduli.loaded)
 
     config = {"law": asdict(law), "rattlers": asdict(rattlers)}

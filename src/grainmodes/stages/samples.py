@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import asdict
 
+import numpy as np
+
 from grainmodes.dataset.files import Block, BlockError
 from grainmodes.dataset.lost import KINDS, of_samples
 from grainmodes.kernels.laws import Interaction
@@ -26,8 +28,10 @@ def jammed_packing(block: Block, number: int, interaction: Interaction) -> tuple
     """
     if not block.variables["converged"][number]:
         raise ArithmeticError("the packing did not reach force balance")
-    packing = packing_in_row(block, number)
-    force, _ = max_force_and_torque(net_force(packing, interaction))
+    packing, always = packing_in_row(block, number), np.ones(number + 1)
+    if packing.history is not None and not block.variables.get("jammed", always)[number]:
+        return packing, False  # its grains creep, and are never in balance
+    force = max(max_force_and_torque(net_force(packing, interaction)))
     mean = mean_contact_force(packing, interaction)
     limit = max(MAX_FORCE_RATIO * mean, force_tolerance(block))
     if not force <= limit:
@@ -36,6 +40,11 @@ def jammed_packing(block: Block, number: int, interaction: Interaction) -> tuple
             f"max|F| <= {limit:.1e} at a mean contact force of {mean:.2e}, got {force:.2e}"
         )
     return packing, is_jammed(packing, interaction, force)
+
+
+def springs_at_rest(packings: Block) -> bool:
+    """Whether no spring of these packings is loaded, as after a compression without friction."""
+    return "spring_state" not in packings.variables
 
 
 def first_sample(block: Block) -> Block:

@@ -34,7 +34,7 @@ from grainmodes.spectrum import (
     full_spectrum,
 )
 from grainmodes.stages.rows import response_block
-from grainmodes.stages.samples import jammed_packing
+from grainmodes.stages.samples import jammed_packing, springs_at_rest
 from grainmodes.statistics.binning import fixed_edges
 
 
@@ -47,7 +47,10 @@ def spectrum_block(
     processes: int = 1,
 ) -> Block:
     """The spectrum of every packing without its rattlers; `processes` share its slices."""
-    interaction, threshold = Interaction.from_law(law), rattlers.largest(law)
+    interaction, threshold = (
+        Interaction.from_law(law),
+        rattlers.largest(law, springs_at_rest(packings)),
+    )
     edges = fixed_edges(law.kt, choices.bin_density)
 
     def sample(number: int) -> dict[str, object]:
@@ -94,7 +97,10 @@ def hessian_block(
     packings: Block, law: ContactLaw, rattlers: Rattlers, choices: SpectrumChoices
 ) -> Block:
     """Modes of the effective Hessian in bins, tangent stiffnesses and printed ones: A, (H4)."""
-    interaction, threshold = Interaction.from_law(law), rattlers.largest(law)
+    interaction, threshold = (
+        Interaction.from_law(law),
+        rattlers.largest(law, springs_at_rest(packings)),
+    )
     edges = fixed_edges(law.kt, choices.bin_density)
 
     def sample(number: int) -> dict[str, object]:

@@ -6,22 +6,23 @@ from dataclasses import asdict
 
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Interaction
-from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
 from grainmodes.protocols.shear.step_strain import step_strain
 from grainmodes.stages.rows import response_block
-from grainmodes.stages.samples import jammed_packing
+from grainmodes.stages.samples import jammed_packing, springs_at_rest
 
 
 def step_strain_block(packings: Block, law: ContactLaw, step: StepStrain) -> Block:
     """g of every packing from step strains, relaxed by the full non-linear forces."""
     interaction = Interaction.from_law(law)
+    threshold = Rattlers().largest(law, springs_at_rest(packings))
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, interaction)
         if not jammed:
             return {"g_simulated": 0.0, "g_simulated_forward": 0.0, "converged": True}
-        result = step_strain(packing, interaction, step)
+        result = step_strain(packing, interaction, step, threshold)
         if not result.converged:
             raise ArithmeticError(
                 f"step strain {result.strain}: expected max|F| and max|2T/d| < "

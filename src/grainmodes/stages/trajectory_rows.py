@@ -46,17 +46,20 @@ def check_start(block: Block, config: dict[str, Any], phi: float) -> None:
     Raises:
         BlockError: they lie above φ, or were made with other parameters.
     """
-    found, expected = (
-        {**settings.get("compression", {}), "normal": settings.get("normal")}
-        for settings in (block.mapping("config"), config)
-    )
-    differing = [key for key in expected if found.get(key) != expected[key]]
+    found, expected = (_choices(settings) for settings in (block.mapping("config"), config))
+    differing = [key for key in {**expected, **found} if found.get(key) != expected.get(key)]
     if differing:
-        parts = [f"expected {key} = {expected[key]}, got {found.get(key)}" for key in differing]
+        parts = [f"expected {key} = {expected.get(key)}, got {found.get(key)}" for key in differing]
         raise BlockError(f"the checkpoints belong to another compression: {'; '.join(parts)}")
     reached = float(block.attributes["phi"])
     if reached > phi + PHI_ROUNDING:
         raise BlockError(f"the checkpoints: expected a phi of at most {phi}, got {reached}")
+
+
+def _choices(config: dict[str, Any]) -> dict[str, Any]:
+    """Every choice of a compression by its name; those of its parts side by side."""
+    parts = (value if isinstance(value, dict) else {name: value} for name, value in config.items())
+    return {name: value for part in parts for name, value in part.items()}
 
 
 def check_samples(block: Block, n: int, seeds: range) -> None:

@@ -50,7 +50,7 @@ NEEDED = {
     "A16": "g_forward_by_strain",
     "A17": "g_translational",
     "A18": "verlet_order_position",
-    "A19": "jammed_frictional",
+    "A19": "complex_pairs_at_rest",
 }
 
 

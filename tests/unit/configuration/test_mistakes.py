@@ -14,7 +14,7 @@ MISTAKES = [  # key, value, parts of the message with " … " for what lies betw
     (
         "grid.phis",
         [1],
-        "grids[0]: unknown key 'phis', expected one of n, phi, kt, seeds, observables",
+        "grids[0]: unknown key 'phis', expected one of n, phi, kt, preparation, seeds, observables",
     ),
     ("grid.n", ..., "grids[0]: key 'n' is missing, expected a list"),
     ("grid.n", [], "grids[0].n: expected a list, each item a whole even number … got []"),
@@ -93,6 +93,16 @@ MISTAKES = [  # key, value, parts of the message with " … " for what lies betw
     ("protocol.compression.relaxation", "slow", "expected one of fire_newton, fire"),
     ("protocol.compression.large_diameter", 0, "expected a number from 0.5 to 2.0 (d)"),
     ("protocol.compression.masses", "unit", "expected one of area, equal"),
+    (
+        "protocol.frictional_compression.time_step",
+        0.2,
+        "expected a number from 1e-06 to 0.15 (t_0)",
+    ),
+    (
+        "grid.preparation",
+        "elastic",
+        "grids[0].preparation: expected one of frictionless, frictional",
+    ),
     ("protocol.rattlers.threshold", 3, "expected a whole number from 0 to 2"),
     ("figures", ["g_psi"], "unknown figure 'g_psi', expected one of g_phi"),
     ("figures", ["g_phi", "g_phi"], "figures: duplicate value 'g_phi': values must be unique"),
@@ -163,3 +173,40 @@ def test_grids_of_one_n_share_their_files_of_seeds():
     assert scene_of_grids({"seeds": 3}, apart | {"seeds": 2}, seeds_per_job=2)
     assert scene_of_grids({"seeds": 3}, apart | {"seeds": 3}, seeds_per_job=2)
     assert scene_of_grids({}, {"n": [128], "seeds": 3}, seeds_per_job=2)
+
+
+FRICTIONAL = {"preparation": "frictional", "observables": {"spectrum": "none"}}
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"kt": [0.0, 1.0]}, "preparation: expected 'frictionless' at kt = 0, got 'frictional'"),
+        (
+            {"observables": {"spectrum": "counts"}},
+            "observables.spectrum: expected none, eigenvalues or modes because preparation is "
+            "'frictional' and loads the springs, got counts",
+        ),
+        (
+            {"observables": {"spectrum": "none", "fields": True}},
+            "observables.fields: expected false because preparation is 'frictional' and loads the "
+            "springs",
+        ),
+    ],
+)
+def test_what_compression_with_friction_excludes(change, sentence):
+    with pytest.raises(ConfigurationError) as caught:
+        scene_of_grids(FRICTIONAL | change)
+    assert str(caught.value) == f"grids[0].{sentence}"
+
+
+def test_grids_of_one_n_share_their_preparation():
+    with pytest.raises(ConfigurationError) as caught:
+        scene_of_grids({}, FRICTIONAL | {"phi": [0.95]})
+    assert str(caught.value) == (
+        "grids[1].preparation: expected 'frictionless' as in grids[0], because both hold n = 16, "
+        "got 'frictional'"
+    )
+    scene = scene_of_grids({}, FRICTIONAL | {"n": [128]})
+    assert scene.preparation_of(128, 0.9, 1.0) == "frictional"
+    assert scene.preparation_of(16, 0.9, 1.0) == "frictionless"

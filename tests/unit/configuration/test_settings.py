@@ -11,15 +11,20 @@ from scenes import scene_of_grids, scene_with
 
 SPECTRA = {"spectrum", "spectrum_rattlers", "spectrum_hessian"}
 SHEARED = {"shear", "event_detail", "complex_pairs"}
+FRICTIONAL = {"compress_with_friction", "equilibrate_with_friction"}
+COMPRESSED = {"compress", "equilibrate", "ensemble"} | FRICTIONAL
 STAGES = (
     *("compress", "equilibrate", "rigidity", "step_strain", "fields", "claim_diagnostics"),
     *("shear", "event_detail", "complex_pairs", "release", "law_comparison", "ensemble"),
     *sorted(SPECTRA),
+    *sorted(FRICTIONAL),
 )
 DEPENDENCE = {
-    "protocol.compression.phi_step": (5e-5, {"compress", "equilibrate", "ensemble"}),
-    "protocol.compression.large_diameter": (1.4, {"compress", "equilibrate", "ensemble"}),
-    "protocol.compression.masses": ("equal", {"compress", "equilibrate", "ensemble"}),
+    "protocol.compression.phi_step": (5e-5, COMPRESSED),
+    "protocol.compression.large_diameter": (1.4, COMPRESSED),
+    "protocol.compression.masses": ("equal", COMPRESSED),
+    "protocol.frictional_compression.drag": (2.0, FRICTIONAL | {"ensemble"}),
+    "contact_law.tangential": ("elastic_force", set(STAGES) - {"compress", "equilibrate"}),
     "protocol.rattlers.threshold": (
         1,
         {"rigidity", "fields", "claim_diagnostics", "spectrum", "spectrum_hessian", "ensemble"},

@@ -15,10 +15,6 @@ from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import StepStrain
-from grainmodes.protocols.compression.frictional_compression import (
-    expanded_to_contact,
-    frictional_compression,
-)
 from grainmodes.protocols.shear.step_strain import forward_rigidity
 from grainmodes.relaxation.accuracy import step_orders
 from grainmodes.response.mode_sum import ModeRigidity, mode_sum
@@ -109,25 +105,12 @@ def test_a_step_of_velocity_verlet_is_as_right_as_paper_a_says(name, kt):
     assert step_orders(packing, interaction, Undamped()).velocity == pytest.approx(2.0, abs=0.02)
 
 
-def test_a_loosened_packing_touches_in_one_place():
-    packing = expanded_to_contact(crowd(71, slip=0.3))
-    assert packing.history is None and packing.rotation is None
-    assert len(replace(packing, box_length=packing.box_length * (1 - 1e-12)).contacts.i) == 1
-    assert len(replace(packing, box_length=packing.box_length * (1 + 1e-12)).contacts.i) == 0
-
-
-@pytest.mark.parametrize("name", [SMALL, HERTZ])
-def test_compression_with_friction_loads_springs_and_makes_complex_pairs(name):
-    packing, interaction = reference(name)[1], elastic(name, KT)
-    found = frictional_compression(packing, interaction, 1e-14)
-    assert found.jammed
-    assert np.abs(found.packing.contacts.springs).max() > 1e-4
-    if name == HERTZ:
-        assert count_complex_pairs(found.packing, interaction) > 0
-    unsprung = replace(found.packing, history=None)
-    assert (
-        count_complex_pairs(unsprung, interaction) == count_complex_pairs(packing, interaction) == 0
-    )
+def test_springs_at_rest_make_no_pairs_and_loaded_ones_do():
+    packing, interaction = crowd(72, slip=0.8), elastic("hertz", 1.0)
+    assert claim_diagnostics.pairs_at_rest(packing, interaction) > 0
+    unsprung = replace(packing, history=None)
+    assert claim_diagnostics.pairs_at_rest(unsprung, interaction) == 0
+    assert count_complex_pairs(unsprung, interaction) == 0
 
 
 def test_pairs_are_those_of_the_matrix_over_the_masses():
@@ -141,11 +124,6 @@ def test_pairs_are_those_of_the_matrix_over_the_masses():
     )
 
 
-def test_a_state_that_bears_nothing_is_not_jammed():
-    found = frictional_compression(loose(reference(SMALL)[1]), elastic(SMALL, KT), 1e-14)
-    assert not found.jammed and found.packing.n == 0
-
-
 def test_the_row_of_a_jammed_packing():
     packing = reference(SMALL)[1]
     found = row(packing, KT)
@@ -155,14 +133,14 @@ def test_the_row_of_a_jammed_packing():
     steps = [forward_rigidity(packing, elastic(SMALL, KT), StepStrain(strain=x)) for x in strains]
     np.testing.assert_array_equal(values["g_forward_by_strain"], steps)
     assert values["hessian_difference"] < 1e-15 < 1.0 < values["hessian_printed_difference"]
-    assert values["jammed_frictional"] == 1 and values["complex_pairs_frictional"] >= 0
+    assert values["complex_pairs_at_rest"] == 0 and values["asymmetry_at_rest"] < 1e-15
     assert values["converged"] == 1 and found.attributes["failures"] == {}
     assert found.attributes["stage"] == "claim_diagnostics" and found.attributes["kt"] == KT
 
 
-def test_without_friction_there_is_neither_verlet_nor_compression():
+def test_without_friction_there_is_neither_verlet_nor_a_pair():
     found = row(reference(SMALL)[1], 0.0)
-    absent = {"verlet_order_position", "complex_pairs_frictional", "jammed_frictional"}
+    absent = {"verlet_order_position", "complex_pairs_at_rest", "asymmetry_at_rest"}
     assert not absent & set(found.variables)
     g = rigidity(reference(SMALL)[1], elastic(SMALL, 0.0)).unloaded.g
     assert found.variables["g_translational"][0] == pytest.approx(g, rel=1e-9)
@@ -170,16 +148,16 @@ def test_without_friction_there_is_neither_verlet_nor_compression():
 
 def test_large_packings_are_spared_dense_matrices(monkeypatch):
     monkeypatch.setattr(claim_diagnostics, "MAX_DENSE_GRAINS", 8)
-    monkeypatch.setattr(claim_diagnostics, "MAX_COMPRESSED_GRAINS", 8)
+    monkeypatch.setattr(claim_diagnostics, "MAX_PAIR_GRAINS", 8)
     found = row(reference(SMALL)[1], KT).variables
-    assert "g_translational" not in found and "complex_pairs_frictional" not in found
+    assert "g_translational" not in found and "complex_pairs_at_rest" not in found
     assert found["verlet_order_position"][0] > 1.9
 
 
 def test_an_unjammed_packing_has_no_rigidity():
     found = row(loose(reference(SMALL)[1]), KT).variables
     np.testing.assert_array_equal(found["g_forward_by_strain"], [[0.0, 0.0, 0.0]])
-    for name in ("g_translational", "complex_pairs_frictional", "jammed_frictional"):
+    for name in ("g_translational", "complex_pairs_at_rest"):
         assert found[name][0] == 0.0
     assert "hessian_difference" not in found and found["converged"][0] == 1
 
@@ -188,13 +166,13 @@ def test_a_diagnostic_that_fails_leaves_its_sentence_and_the_others(monkeypatch)
     def hopeless(*arguments):
         raise ArithmeticError("it did not end")
 
-    monkeypatch.setattr(claim_diagnostics, "frictional_compression", hopeless)
+    monkeypatch.setattr(claim_diagnostics, "step_orders", hopeless)
     short = StepStrain(relaxation="damped", max_steps=40)
     found = row(reference(SMALL)[1], KT, short)
     sentence = found.attributes["failures"]["claim_diagnostics"]["0"]
     assert sentence.count("forward_rigidity: step strain") == 3
-    assert sentence.endswith("compressed_pairs: it did not end")
-    for name in ("g_forward_by_strain", "complex_pairs_frictional", "jammed_frictional"):
+    assert sentence.endswith("hopeless: it did not end")
+    for name in ("g_forward_by_strain", "verlet_order_position", "verlet_order_velocity"):
         assert np.isnan(found.variables[name]).all()
     assert found.variables["g_translational"][0] > 0 and found.variables["converged"][0] == 1
 

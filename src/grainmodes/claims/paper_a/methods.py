@@ -4,7 +4,7 @@ symbol  name                                                     paper A
 D, D_H  bin_count, bin_count_hessian over the same bins          Eq. 23, App. H
 J, H    hessian_difference = max|H - J| / max|J|                 Eq. 18, App. H
 q, q̇    verlet_order_position, verlet_order_velocity             App. B
-M⁻¹J    complex_pairs_frictional, jammed_frictional              footnote 1
+M⁻¹J    complex_pairs_at_rest of grains compressed with friction   footnote 1
 """
 
 from __future__ import annotations
@@ -131,15 +131,12 @@ def complex_pairs_with_friction(ensemble) -> Outcome:
 
     Criterion: More than one half of the states with k_T/k_N ≥ 0.1 have at least one pair.
     """
-    samples = best_sampled(ensemble, "complex_pairs_frictional", "jammed_frictional")
-    points = samples.points("complex_pairs_frictional", MIN_FRICTIONAL_KAPPA)
+    samples = best_sampled(ensemble, "complex_pairs_at_rest", with_friction=True)
+    points = samples.points("complex_pairs_at_rest", MIN_FRICTIONAL_KAPPA)
     if not points:
         raise NotTested("states compressed with k_T/k_N ≥ 0.1")
-    pairs, jammed = (
-        np.array([samples.values(name, *point) for point in points])
-        for name in ("complex_pairs_frictional", "jammed_frictional")
-    )
-    having = np.where(jammed == 1, pairs > 0, np.nan)
+    pairs = np.array([samples.values("complex_pairs_at_rest", *point) for point in points])
+    having = np.where(np.isfinite(pairs), pairs > 0, np.nan)
     known = np.isfinite(having)
     with np.errstate(invalid="ignore"):
         share = np.nansum(having, axis=0) / known.sum(axis=0)

@@ -22,7 +22,7 @@ def harmonic(ensemble, *names: str) -> Samples:
     Raises:
         NotTested: the ensemble lacks one of the variables, or its grains are not harmonic.
     """
-    samples = best_sampled(ensemble, *names)
+    samples = best_sampled(ensemble, *names, with_friction=None)
     if normal_law(ensemble) != "harmonic":
         raise NotTested("harmonic grains")
     return samples

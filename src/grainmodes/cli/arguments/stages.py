@@ -6,25 +6,30 @@ from pathlib import Path
 
 from grainmodes.cli.arguments import options
 from grainmodes.cli.arguments.options import Commands
+from grainmodes.parameters.compression import PREPARATIONS
 from grainmodes.parameters.law import NORMAL_LAWS, TANGENTIAL_LAWS
 from grainmodes.parameters.spectra import SPECTRA
 from grainmodes.parameters.stage import Stage
-from grainmodes.parameters.stages import STAGES, responses
+from grainmodes.parameters.stages import STAGES, packings_stage, responses
 
 
 def define(commands: Commands) -> None:
     """Add these commands, in the order in which a sample runs through them."""
-    _compress(commands)
-    _equilibrate(commands)
+    for name in ("compress", "compress_with_friction"):
+        _compress(commands, STAGES[name])
+    for preparation in PREPARATIONS:
+        _equilibrate(commands, packings_stage(preparation))
     for stage in responses():
         _response(commands, stage)
     _point(commands)
 
 
-def _compress(commands: Commands) -> None:
-    command = options.command(commands, "compress", "stages:compress", STAGES["compress"].sentence)
+def _compress(commands: Commands, stage: Stage) -> None:
+    command = options.command(commands, stage.command, "stages:compress", stage.sentence)
     options.n(command)
     options.phi(command)
+    if stage.needs_friction:
+        options.kt(command)
     options.seeds(command)
     command.add_argument(
         "--start",
@@ -37,11 +42,12 @@ def _compress(commands: Commands) -> None:
     options.output(command)
 
 
-def _equilibrate(commands: Commands) -> None:
-    sentence = STAGES["equilibrate"].sentence
-    command = options.command(commands, "equilibrate", "stages:equilibrate", sentence)
+def _equilibrate(commands: Commands, stage: Stage) -> None:
+    command = options.command(commands, stage.command, "stages:equilibrate", stage.sentence)
     command.add_argument("start", type=Path, help="the checkpoint at or below --phi")
     options.phi(command)
+    if stage.needs_friction:
+        options.kt(command)
     options.settings(command)
     options.output(command)
 
@@ -77,6 +83,12 @@ def _point(commands: Commands) -> None:
     command.add_argument("--tangential", choices=TANGENTIAL_LAWS, help="tangential law")
     command.add_argument(
         "--friction-coefficient", type=float, metavar="MU", help="Coulomb's friction coefficient"
+    )
+    command.add_argument(
+        "--preparation",
+        choices=PREPARATIONS,
+        default=PREPARATIONS[0],
+        help="whether the packings are compressed without friction (paper A) or with it (paper B)",
     )
     command.add_argument("--spectrum", choices=SPECTRA, help="kind of spectrum to compute")
     options.settings(command)

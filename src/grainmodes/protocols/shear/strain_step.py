@@ -20,6 +20,7 @@ In these cases the dynamics decides, and Newton's method only refines its final 
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -27,21 +28,18 @@ from grainmodes.kernels.damping import Drag
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.springs import advance_by_slide
 from grainmodes.packing.contacts import History
-from grainmodes.packing.forces import is_frictionless, mean_contact_force
+from grainmodes.packing.forces import is_frictionless
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.strain import Shear
+from grainmodes.relaxation.dynamic_equilibrium import (
+    HANDOVER_FORCE_RATIO,
+    equilibrium_by_dynamics,
+)
 from grainmodes.relaxation.dynamics import relax_damped
 from grainmodes.relaxation.equilibrium_search import find_equilibrium
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.relaxation.frictionless import relax_fire_newton
 from grainmodes.relaxation.result import RelaxationResult
-
-HANDOVER_FORCE_RATIO = 1e-4
-"""max|F̃|, relative to the mean contact force, at which Newton's method takes over from the
-dynamics, which by then has decided which contacts open and close (docs/numerics.md)."""
-
-HANDOVER_REDUCTION = 0.1
-"""Factor by which the handover force is lowered where Newton's method leaves the basin."""
 
 
 def first_equilibrium(
@@ -101,35 +99,22 @@ def strained_affinely(before: EquilibriumState, strain: float, loaded: bool) -> 
 def _equilibrium_by_dynamics(
     packing: Packing, before: EquilibriumState, choices: Shear
 ) -> EquilibriumState:
-    """Dynamics into the basin of an equilibrium, then Newton's method to its bottom.
-
-    Where Newton's method fails, the dynamics goes on to ever smaller forces, in the end to F_Th.
-    Damped relaxation, as B does it, goes to F_Th at once.
-    """
-    interaction, target = before.interaction, choices.force_tolerance
-    tolerance, steps_left = target, choices.max_steps
-    if choices.relaxation != "damped":
-        mean = mean_contact_force(packing, interaction)
-        tolerance = max(HANDOVER_FORCE_RATIO * mean, target)
-    while steps_left > 0:
-        relaxed = _run_dynamics(packing, interaction, tolerance, choices, steps_left)
-        is_last = tolerance <= target
-        max_released_force = np.inf if is_last else target
-        found = find_equilibrium(relaxed.packing, interaction, target, before, max_released_force)
-        if found is not None and not found.unstable:
-            return found
-        if is_last:
-            break
-        packing, steps_left = relaxed.packing, steps_left - relaxed.iterations
-        tolerance = max(HANDOVER_REDUCTION * tolerance, target)
-    raise ArithmeticError(
-        f"strain {packing.strain}: no stable equilibrium, max|F| = {relaxed.max_force:.1e} after "
-        f"{choices.max_steps - steps_left + relaxed.iterations} steps of the dynamics"
+    """The equilibrium that the dynamics leads to; damped relaxation, as B does it, ends there."""
+    interaction, damped = before.interaction, choices.relaxation == "damped"
+    found, _ = equilibrium_by_dynamics(
+        packing,
+        interaction,
+        partial(_run_dynamics, interaction, choices),
+        choices.force_tolerance,
+        choices.max_steps,
+        before,
+        handover=0.0 if damped else HANDOVER_FORCE_RATIO,
     )
+    return found
 
 
 def _run_dynamics(
-    packing: Packing, interaction: Interaction, tolerance: float, choices: Shear, max_steps: int
+    interaction: Interaction, choices: Shear, packing: Packing, tolerance: float, max_steps: int
 ) -> RelaxationResult:
     """Relax until max|F̃| < `tolerance`: by B's damped dynamics, without friction by FIRE."""
     if is_frictionless(interaction):
