@@ -1,8 +1,8 @@
 """The ensemble of `claim_fixtures` with sheared harmonic grains: every claim of paper B holds.
 
 every step raises σ by g Δγ - Δγ², so that σ_th is right to order Δγ²
-an event every 0.01, bracketed to Δγ_Th in tenths of Δγ_in, in which σ falls and λ_min and g jump
-a change without event every 0.01, in which a contact opens
+an event every 0.08, bracketed to Δγ_Th in tenths of Δγ_in, in which σ falls and λ_min and g jump
+a change without event every 0.08, in which a contact opens
 """
 
 from __future__ import annotations
@@ -16,11 +16,13 @@ import claim_fixtures
 
 N, PHI, KT = 64, 0.90, 1.0
 PLACE = {"n": N, "phi": PHI, "kt": KT}
-STEP, SMALLEST, STRAIN = 1e-3, 1e-7, 0.05
-EVENTS = np.arange(0.0053, STRAIN, 0.01)
+STEP, SMALLEST, STRAIN = 1e-3, 1e-7, 0.4
+EVENTS = np.arange(0.0053, STRAIN, 0.08)
 """γ_c of the events, the same in every sample."""
 CHANGES = EVENTS[:-1] + 0.005
 DROP = 1e-3
+JUMPS = 0.002 * np.arange(1, len(EVENTS) + 1)
+"""Fall of g in every event."""
 UNITS = round(STEP / SMALLEST)
 
 
@@ -77,7 +79,7 @@ def _sample(seed: int) -> dict[str, object]:
     factor = np.random.default_rng([seed, 3]).normal(1.0, 0.02)
     before = np.searchsorted(strain, EVENTS + 0.5 * SMALLEST) - 1
     passed = np.searchsorted(before, np.arange(len(strain)), side="left")
-    g = factor * (0.3 - 2.0 * strain - 0.002 * passed)
+    g = factor * (0.3 - 0.2 * strain - 0.002 * passed)
     stress = stress_of(strain, g) - DROP * passed
     lowest = factor * (0.2 - 0.1 * strain) * 0.9**passed
     changes = np.searchsorted(strain, CHANGES)
@@ -92,19 +94,31 @@ def _sample(seed: int) -> dict[str, object]:
         "curve_g_yx": g,
         "curve_lowest_eigenvalue": lowest,
         "coarse_strain": strain[grid],
-        "coarse_stress": (stress * (1.0 + 1e-4 * factor))[grid],
+        "coarse_stress": (stress * (1.0 + np.where(strain > 0.08, 0.05, 1e-4) * factor))[grid],
         "event_kind": one,
         "event_strain_before": strain[before],
+        "event_stress_before": stress[before],
+        "event_stress_after": stress[before + 1],
+        "event_g_before": g[before],
+        "event_g_after": g[before] - JUMPS * factor,
         "event_opened": one,
         "event_closed": 0.0 * one,
         "event_reopened": 0.0 * one,
         "event_asymmetry_after": 0.0 * one,
         "event_complex_pairs_after": 0.0 * one,
         "event_quadrupole": 0.5 * factor * one,
+        "event_quadrupole_rank": 0.005 * one,
         "event_other_multipoles": 0.02 * one,
         "bracket_min_step": width,
         "bracket_strain_before": EVENTS[0] - 0.5 * width,
         "bracket_strain_after": EVENTS[0] + 0.5 * width + 0.2 * factor * width,
         "last_complex_pairs": 0.0,
+        "path_error_largest": 1e-16 * factor * np.ones(3),
+        "path_error_increment": 1e-16 * factor * np.ones(3),
+        "path_turn_median": 1e-4 * np.arange(3.0),
+        "loop_strain": 0.002,
+        "loop_slide": 1e-4 * factor,
+        "loop_left": 1e-9 * factor,
+        "rate_difference": 1e-6 * factor,
         "change_strain_before": strain[changes],
     }

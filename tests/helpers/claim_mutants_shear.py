@@ -39,6 +39,23 @@ def singular_rigidity(ensemble):
     claim_fixtures_shear.add_stress(ensemble, rise)
 
 
+def turned_out(ensemble):
+    ensemble["path_error_largest"] = 1e-4 * ensemble["path_turn_median"] + 1e-3
+
+
+def other_rate(ensemble):
+    ensemble["rate_difference"] = ensemble["rate_difference"] + 0.05
+
+
+def remembering(ensemble):
+    ensemble["loop_left"] = 0.1 * ensemble["loop_slide"]
+
+
+def jumps_of_one_size(ensemble):
+    early = ensemble["event_strain_before"] < 0.05
+    ensemble["event_g_after"] = ensemble["event_g_after"] - 0.1 * early
+
+
 def skewed(ensemble):
     ensemble["event_asymmetry_after"] = ensemble["event_asymmetry_after"] + 0.003
 
@@ -48,7 +65,7 @@ def softer_in_changes(ensemble):
     strain = claim_fixtures_shear.strains()
     starts = strain[np.searchsorted(strain, claim_fixtures_shear.CHANGES)]
     drops = (strain[:, None] > starts).sum(axis=1)
-    claim_fixtures_shear.add_stress(ensemble, -1.2e-4 * drops)
+    claim_fixtures_shear.add_stress(ensemble, -1.2e-3 * drops)
 
 
 def no_contact_changes(ensemble):
@@ -65,7 +82,7 @@ def wandering(ensemble):
 
 
 def turning_as_one(ensemble):
-    ensemble["event_quadrupole"] = 0.1 * ensemble["event_quadrupole"]
+    ensemble["event_quadrupole"] = 0.01 * ensemble["event_quadrupole"]
 
 
 MUTANTS = {
@@ -74,10 +91,14 @@ MUTANTS = {
     "B3": trend_before_events,
     "B4": singular_rigidity,
     "B5": wandering,
-    "B6": skewed,
+    "B6": turned_out,
     "B7": turning_as_one,
     "B8": softer_in_changes,
     "B9": no_contact_changes,
+    "B11": skewed,
+    "B12": other_rate,
+    "B13": remembering,
+    "B14": jumps_of_one_size,
 }
 """Claims that fail alone; B10 is A1 for harmonic grains and fails with it."""
 
@@ -87,5 +108,10 @@ def no_jump(ensemble):
     ensemble["curve_lowest_eigenvalue"] = 0.2 - 0.1 * strain
 
 
-SECOND_MUTANTS = {"B3": no_jump}
+def disordered(ensemble):
+    """Rotations whose p_2 is that of a permutation."""
+    ensemble["event_quadrupole_rank"] = ensemble["event_quadrupole_rank"] + 0.5
+
+
+SECOND_MUTANTS = {"B3": no_jump, "B7": disordered}
 """Changes that fail the second statement of a claim that makes two."""

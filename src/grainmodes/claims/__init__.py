@@ -10,7 +10,7 @@ from grainmodes.claims.samples import points_left_out
 from grainmodes.ensemble import open_ensemble
 
 CLAIMS: tuple[Claim, ...] = (*paper_a.CLAIMS, *paper_b.CLAIMS, *paper_c.CLAIMS)
-"""A1 to A19, B1 to B10, then C1 to C9."""
+"""A1 to A19, B1 to B14, then C1 to C9."""
 
 
 def check(ensemble, claims: tuple[Claim, ...] = CLAIMS) -> list[Verdict]:

@@ -9,7 +9,7 @@ from grainmodes.cost.estimate import estimate, wall_seconds
 from grainmodes.cost.item import Item
 from grainmodes.cost.table import Table
 
-COLUMNS = f"{'stage':18} {'grid':>5} {'n':>7} {'samples':>8} {'jobs':>6} {'CPU h':>9}"
+COLUMNS = f"{'stage':26} {'grid':>5} {'n':>7} {'samples':>8} {'jobs':>6} {'CPU h':>9}"
 COLUMNS += f" {'peak MB':>8} {'disk MB':>8}"
 
 MARKS = {
@@ -40,7 +40,7 @@ def _lines(scene: Scene, table: Table, cores: int) -> Iterator[str]:
 
 def _row(item: Item) -> str:
     grid = "all" if item.grid is None else item.grid
-    head = f"{item.stage:18} {grid:>5} {item.n:7d} {item.samples:8d}"
+    head = f"{item.stage:26} {grid:>5} {item.n:7d} {item.samples:8d}"
     amounts = _amounts(item.jobs, item.seconds, item.megabytes, item.disk)
     return f"{head} {amounts} {_mark(item)}".rstrip()
 
@@ -50,7 +50,7 @@ def _total(items: list[Item]) -> str:
     seconds = sum(item.seconds for item in items)
     disk = sum(item.disk for item in items)
     peak = max(item.megabytes for item in items)
-    return f"{'total':41} {_amounts(jobs, seconds, peak, disk)}"
+    return f"{'total':49} {_amounts(jobs, seconds, peak, disk)}"
 
 
 def _amounts(jobs: int, seconds: float, megabytes: float, disk: float) -> str:

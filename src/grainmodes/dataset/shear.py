@@ -123,10 +123,33 @@ NAMES = {
     "event_other_multipoles": Variable(
         EVENT, "f8", NUMBER, "mean of the multipoles p_1, p_3 and p_4 around the same grain"
     ),
+    "event_quadrupole_rank": Variable(
+        EVENT,
+        "f8",
+        NUMBER,
+        "share of permutations of the rotations among the grains that have a p_2 as large",
+    ),
     # the last state
     "last_asymmetry": Variable(BLOCK, "f8", NUMBER, "max |J - J^T| / max |J| of the last state"),
     "last_complex_pairs": Variable(
         BLOCK, "f8", NUMBER, "number of complex pairs of the last state; NaN: not counted"
+    ),
+    # what a closed loop of strain leaves behind, and linear response just after the first event
+    "loop_strain": Variable(
+        BLOCK, "f8", NUMBER, "largest strain of a closed loop in which no contact changes"
+    ),
+    "loop_slide": Variable(
+        BLOCK, "f8", SPRING_STATE, "largest change of a spring state from 0 to that strain"
+    ),
+    "loop_left": Variable(
+        BLOCK, "f8", SPRING_STATE, "largest change of a spring state after the whole loop"
+    ),
+    "rate_difference": Variable(
+        BLOCK,
+        "f8",
+        NUMBER,
+        "|simulated - theoretical| / |theoretical| of the non-affine displacement per unit strain "
+        "just after the first event",
     ),
     # smaller changes
     "change_count": Variable(

@@ -124,7 +124,9 @@ ENTRIES = (
         "grainmodes.stages.shear:shear_block",
         "shear",
         arguments={"choices": "protocol.shear", "coarse_run": "observables.coarse_run"},
-        options={"coarse_run": "The shear once more, its events not bracketed."},
+        options={
+            "coarse_run": "The shear once more, events not bracketed; checks of the first event."
+        },
         work="usual steps",
         resumable=True,
     ),

@@ -14,7 +14,6 @@ import numpy as np
 from grainmodes.dataset.files import Block
 from grainmodes.dataset.padding import stack_padded
 from grainmodes.kernels.laws import Interaction
-from grainmodes.packing.forces import is_frictionless
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
@@ -27,21 +26,15 @@ from grainmodes.protocols.shear.event_states import (
     states_around,
 )
 from grainmodes.protocols.shear.events import PlasticEvent
-from grainmodes.protocols.shear.first_event import (
-    Bracket,
-    accepted_steps,
-    bracket_first_event,
-    refined_steps,
-)
-from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
+from grainmodes.protocols.shear.first_event import Bracket, bracket_first_event, refined_steps
 from grainmodes.protocols.shear.sheared_state import ShearedState
-from grainmodes.protocols.shear.tangential_path import PathError, TangentialPath
 from grainmodes.stages.rows import loss, response_block
 from grainmodes.stages.samples import first_sample, jammed_packing
 from grainmodes.stages.shear_rows import (
     bracket_ends,
     bracket_failures,
     on_every_grain,
+    path_errors_row,
     symmetric_shear,
 )
 
@@ -61,7 +54,7 @@ def event_detail_block(packings: Block, law: ContactLaw, choices: Shear) -> Bloc
             refined_steps(choices),
         )
         narrowest, lost = brackets[-1], loss(bracket_failures(brackets))
-        row |= _brackets(brackets) | _path_errors(packing, interaction, refined[0])
+        row |= _brackets(brackets) | path_errors_row(packing, interaction, refined[0])
         row |= {"converged": not lost, **lost}
         if narrowest.event is None or narrowest.after is None:
             return row | _grains(packing)
@@ -137,19 +130,3 @@ def _branches(bracket: Bracket, choices: Shear) -> dict[str, object]:
         "near_g_numerical": [one.slope for one in branches],
         "near_changes": [one.changes for one in branches],
     }
-
-
-def _path_errors(packing: Packing, interaction: Interaction, choices: Shear) -> dict[str, object]:
-    """B's Err along a shear in whole steps, up to its first event; nothing without friction."""
-    if is_frictionless(interaction):
-        return {}
-    run = QuasistaticRun.from_packing(packing, interaction, choices)
-    path, errors = TangentialPath(run.state.equilibrium), []
-    for _, state in accepted_steps(run):
-        if run.events:
-            break
-        errors.append(path.follow(state.equilibrium))
-    if not errors:
-        return {"path_count": 0}
-    columns = zip(PathError._fields, zip(*errors, strict=True), strict=True)
-    return {"path_count": len(errors)} | {f"path_{name}": values for name, values in columns}

@@ -9,7 +9,7 @@ from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Interaction
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
-from grainmodes.protocols.shear.first_event import bracket_first_event
+from grainmodes.protocols.shear.first_event import bracket_first_event, refined_steps
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.stages.long_runs import CheckpointStore, run_to_end
 from grainmodes.stages.rows import loss, response_block
@@ -18,6 +18,9 @@ from grainmodes.stages.shear_rows import (
     bracket_ends,
     bracket_failures,
     coarse_run_row,
+    history_row,
+    path_errors_row,
+    rate_row,
     run_row,
 )
 
@@ -34,8 +37,8 @@ def shear_block(
     A sample that ends before its last strain keeps what it has, and is not converged.
 
     Args:
-        coarse_run: adds a run in steps Δγ_in whose events are not bracketed, and the first event
-            in brackets of every width.
+        coarse_run: adds a run in steps Δγ_in whose events are not bracketed, the first event in
+            brackets of every width with dq̊/dγ after it, and what the springs remember up to there.
         checkpoints: where runs are saved now and then; a sample takes minutes to hours.
     """
     interaction = Interaction.from_law(law)
@@ -55,6 +58,15 @@ def shear_block(
             row |= coarse_run_row(coarse) | bracket_ends(brackets)
             errors |= {"coarse run": None if coarse.done else coarse.failure}
             errors |= bracket_failures(brackets)
+            for part, further in {
+                "closed loop": partial(history_row, packing, interaction, choices),
+                "tangential path": partial(path_errors_row, packing, interaction, choices),
+                "rate after the event": partial(rate_row, brackets[-1], refined_steps(choices)[-1]),
+            }.items():
+                try:
+                    row |= further()
+                except ArithmeticError as error:
+                    errors[part] = error
         lost = loss(errors)
         return row | {"converged": not lost} | lost
 

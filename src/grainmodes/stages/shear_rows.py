@@ -10,11 +10,15 @@ from grainmodes.dataset.padding import stack_padded
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import is_frictionless
 from grainmodes.packing.state import Packing, nan_on_rattlers
+from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.shear.closed_loop import closed_loop
 from grainmodes.protocols.shear.event_multipoles import rotational_multipoles
+from grainmodes.protocols.shear.event_states import nonaffine_rate, simulated_nonaffine_rate
 from grainmodes.protocols.shear.events import NetworkChange, PlasticEvent, count_reopened
 from grainmodes.protocols.shear.first_event import Bracket
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.protocols.shear.sheared_state import CurvePoint
+from grainmodes.protocols.shear.tangential_path import PathError, path_errors
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.response.stability import asymmetry, count_complex_pairs
 
@@ -59,6 +63,38 @@ def bracket_failures(brackets: Sequence[Bracket]) -> dict[str, Exception | None]
     return {f"first event within {b.min_step:.0e}": b.failure for b in brackets if b.failure}
 
 
+def path_errors_row(
+    packing: Packing, interaction: Interaction, choices: Shear
+) -> dict[str, object]:
+    """B's Err along a shear in whole steps, up to its first event; nothing without friction."""
+    if is_frictionless(interaction):
+        return {}
+    errors = path_errors(packing, interaction, choices)
+    if not errors:
+        return {"path_count": 0}
+    columns = zip(PathError._fields, zip(*errors, strict=True), strict=True)
+    return {"path_count": len(errors)} | {f"path_{name}": values for name, values in columns}
+
+
+def history_row(packing: Packing, interaction: Interaction, choices: Shear) -> dict[str, object]:
+    """What a closed loop of strain leaves of the springs; nothing without friction."""
+    if is_frictionless(interaction):
+        return {}
+    loop = closed_loop(packing, interaction, choices)
+    return {f"loop_{name}": value for name, value in loop._asdict().items()}
+
+
+def rate_row(narrowest: Bracket, choices: Shear) -> dict[str, object]:
+    """How far dq̊/dγ of linear response and of the simulation differ after the first event."""
+    if narrowest.after is None:
+        return {"rate_difference": np.nan}
+    rate = nonaffine_rate(narrowest.after)
+    difference = simulated_nonaffine_rate(narrowest.after, choices) - rate
+    known = np.isfinite(difference)
+    size = np.linalg.norm(rate[known])
+    return {"rate_difference": float(np.linalg.norm(difference[known]) / size)}
+
+
 def symmetric_shear(tensor: np.ndarray) -> float:
     """The shear component (T_xy + T_yx)/2 of a tensor (2, 2)."""
     return float(tensor[0, 1] + tensor[1, 0]) / 2.0
@@ -87,7 +123,7 @@ def _events(events: Sequence[PlasticEvent], interaction: Interaction) -> dict[st
         return {"event_count": 0}
     fields = [event.displacement for event in events]
     multipoles = [rotational_multipoles(event.after, event.displacement) for event in events]
-    quadrupole, others = zip(*multipoles, strict=True)
+    quadrupole, others, rank = zip(*multipoles, strict=True)
     before, after = (
         [EquilibriumState.from_packing(packing, interaction) for packing in packings]
         for packings in ([event.before for event in events], [event.after for event in events])
@@ -100,6 +136,7 @@ def _events(events: Sequence[PlasticEvent], interaction: Interaction) -> dict[st
         "event_displacement": np.stack([on_every_grain(field) for field in fields]),
         "event_quadrupole": quadrupole,
         "event_other_multipoles": others,
+        "event_quadrupole_rank": rank,
         "event_reopened": [count_reopened(e.before, e.after, interaction) for e in events],
         **_states("before", before, [event.points[0] for event in events]),
         **_states("after", after, [event.points[1] for event in events]),

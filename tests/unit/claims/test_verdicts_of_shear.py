@@ -9,21 +9,32 @@ import claim_fixtures
 import claim_fixtures_shear
 from claim_mutants_shear import MUTANTS, SECOND_MUTANTS
 from grainmodes.claims import CLAIMS, check, paper_b
-from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_RESOLVED, NOT_TESTED
+from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_COMPARABLE, NOT_RESOLVED, NOT_TESTED
+from grainmodes.claims.paper_b import events
 
-NAMES = [f"B{number}" for number in range(1, 11)]
+NAMES = [f"B{number}" for number in range(1, 15)]
 NEEDED = {
     "B1": "curve_strain",
     "B2": "coarse_strain",
     "B3": "curve_lowest_eigenvalue",
     "B4": "curve_g_xy",
     "B5": "bracket_min_step",
-    "B6": "event_asymmetry_after",
+    "B6": "path_error_largest",
     "B7": "event_quadrupole",
     "B8": "curve_g_xy",
     "B9": "event_reopened",
     "B10": "g_simulated",
+    "B11": "event_asymmetry_after",
+    "B12": "rate_difference",
+    "B13": "loop_left",
+    "B14": "event_g_after",
 }
+
+
+@pytest.fixture(autouse=True)
+def small_quadrupoles(monkeypatch):
+    """The fixture has few grains, in which B7 is judged all the same."""
+    monkeypatch.setattr(events, "QUADRUPOLE_N", claim_fixtures_shear.N)
 
 
 def verdicts(ensemble, claims=paper_b.CLAIMS):
@@ -66,7 +77,7 @@ def test_hertzian_grains_are_not_those_of_paper_b():
     ensemble.attrs["config"] = json.dumps({})
     found = verdicts(ensemble).values()
     assert {verdict.verdict for verdict in found} == {NOT_TESTED}
-    assert sum("harmonic grains" in verdict.explanation for verdict in found) == 10
+    assert sum("harmonic grains" in verdict.explanation for verdict in found) == 14
 
 
 def test_without_shear_only_the_rigidity_before_strain_is_tested():
@@ -84,7 +95,7 @@ def test_one_sample_and_no_event_decide_nothing():
         if name.startswith("event_"):
             calm[name] = calm[name] * np.nan
     found = verdicts(calm)
-    assert {found[name].verdict for name in ("B3", "B4", "B6", "B7", "B9")} == {NOT_TESTED}
+    assert {found[name].verdict for name in ("B3", "B4", "B7", "B9", "B11", "B14")} == {NOT_TESTED}
     assert found["B8"].verdict in (HOLDS, CONTRADICTED)
 
 
@@ -108,4 +119,16 @@ def test_complex_pairs_are_counted():
     ensemble = claim_fixtures_shear.ensemble()
     pairs = ensemble["event_complex_pairs_after"]
     ensemble["event_complex_pairs_after"] = pairs + (pairs["event"] == 2)
-    assert "complex pairs in 16 of 80 states after events" in verdicts(ensemble)["B6"].explanation
+    assert "complex pairs in 16 of 80 states after events" in verdicts(ensemble)["B11"].explanation
+
+
+def test_small_boxes_and_short_shears_are_not_comparable(monkeypatch):
+    monkeypatch.setattr(events, "QUADRUPOLE_N", 1024)
+    ensemble = claim_fixtures_shear.ensemble()
+    short = ensemble["curve_strain"].where(ensemble["curve_strain"] < 0.3)
+    found = verdicts(ensemble.assign(curve_strain=short))
+    assert {name: found[name].needed for name in ("B7", "B14")} == {
+        "B7": "N ≥ 1024",
+        "B14": "shear to γ = 0.34",
+    }
+    assert {found[name].verdict for name in ("B7", "B14")} == {NOT_COMPARABLE}

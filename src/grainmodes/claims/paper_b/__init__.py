@@ -1,4 +1,4 @@
-"""The claims B1 to B10 of paper B (Ishima, Saitoh, Otsuki, Hayakawa), a module per theme."""
+"""The claims B1 to B14 of paper B (Ishima, Saitoh, Otsuki, Hayakawa), a module per theme."""
 
 from __future__ import annotations
 
@@ -11,10 +11,14 @@ CLAIMS: tuple[Claim, ...] = (
     events.jump_without_precursor,
     events.no_singularity,
     methods.critical_strain_converges,
-    methods.symmetric_jacobian,
+    methods.tangential_integral,
     events.quadrupole_of_rotations,
     theory.mean_rigidity,
     events.contacts_at_events,
     theory.rigidity_before_strain,
+    methods.symmetric_jacobian,
+    methods.rate_after_event,
+    methods.springs_without_history,
+    events.jumps_grow_with_strain,
 )
-"""B1 to B10, in this order."""
+"""B1 to B14, in this order."""

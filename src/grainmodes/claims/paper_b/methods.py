@@ -1,4 +1,4 @@
-"""Claims of paper B on its methods: B2, B5 and B6.
+"""Claims of paper B on its methods: B2, B5, B6 and B11 to B13.
 
 symbol          name                                              paper B
 |J - Jᵀ|        event_asymmetry_after, over max|J|                App. C 2, D 3
@@ -14,9 +14,16 @@ from grainmodes.claims.paper_b.sheared import TOLERANCE, harmonic
 from grainmodes.claims.part import Part
 from grainmodes.claims.samples import Samples, label
 from grainmodes.statistics.estimates import mean
+from grainmodes.statistics.medians import median
 
 MAX_LOG_ASYMMETRY = -12.0
 """log10 of max|J - Jᵀ| / max|J| below which an asymmetry is round-off."""
+
+MAX_LOG_ERR = -15.5
+"""log10 of B's bound 3e-16 on Err."""
+
+MAX_LOG_LEFT = -3.0
+"""log10 of the part of s that a loop may leave: the square of a step of 1e-4 is far below it."""
 
 COARSE_NAMES = ("coarse_strain", "coarse_stress")
 
@@ -102,11 +109,45 @@ def critical_strain_converges(ensemble) -> Outcome:
 
 
 @claim("B6", unit="1")
-def symmetric_jacobian(ensemble) -> Outcome:
-    """The Jacobian is symmetric and the sum of slips tangential at any strain (App. A, C 2, D 3).
+def tangential_integral(ensemble) -> Outcome:
+    """The integral of the tangential velocity of a contact stays tangential (App. A, Fig. 10).
 
-    This is log10 of max|J - Jᵀ| / max|J| of the state after an event, averaged over events. The sum
-    of slips is tangential here by construction, because s is a number that turns with the contact.
+    This is log10 of the largest Err of (A1) among the contacts, in the last state before the first
+    event. The velocities are summed as vectors, as in Eq. (10), along the turning contact.
+
+    Asked of: every point with states before the first event.
+
+    Criterion: log10 of the largest Err is below -15.5, that is Err < 3e-16.
+    """
+    samples = harmonic(ensemble, "path_error_largest", "path_error_increment")
+    parts, notes = [], []
+    for point in samples.points("path_error_largest"):
+        largest, increment, turn = (
+            _last(samples.values(f"path_{name}", *point))
+            for name in ("error_largest", "error_increment", "turn_median")
+        )
+        where = label(*point)
+        parts.append(Part(where, mean(np.log10(largest)), high=MAX_LOG_ERR))
+        notes.append(
+            f"At {where} log10 of Err of a single step, against the normal in its middle, is "
+            f"{mean(np.log10(increment))}, and the contacts have turned by {mean(turn)} in the "
+            "median."
+        )
+    return Outcome({"states before the first event": parts}, " ".join(notes))
+
+
+def _last(series: np.ndarray) -> np.ndarray:
+    """The last number of every row (S, M), NaN where there is none."""
+    known = np.isfinite(series)
+    last = known.shape[1] - 1 - known[:, ::-1].argmax(axis=1)
+    return np.where(known.any(axis=1), series[np.arange(len(series)), last], np.nan)
+
+
+@claim("B11", unit="1")
+def symmetric_jacobian(ensemble) -> Outcome:
+    """The Jacobian is symmetric at any strain (App. C 2, D 3).
+
+    This is log10 of max|J - Jᵀ| / max|J| of the state after an event, averaged over events.
 
     Asked of: every point with events.
 
@@ -124,6 +165,49 @@ def symmetric_jacobian(ensemble) -> Outcome:
         )
         notes.append(_pairs(samples, point))
     return Outcome({"events": parts}, " ".join(notes))
+
+
+@claim("B12", unit="1")
+def rate_after_event(ensemble) -> Outcome:
+    """dq̊/dγ of linear response just after an event is that of the simulation (Fig. 5).
+
+    This is |simulation - theory| / |theory| of the field of all grains after the first event of
+    every sample, from a step of 1e-8.
+
+    Asked of: the first event of every sample.
+
+    Criterion: The relative difference of the two fields is below 1 %.
+    """
+    samples = harmonic(ensemble, "rate_difference")
+    parts = []
+    for point in samples.points("rate_difference"):
+        found = samples.values("rate_difference", *point)
+        parts.append(Part(label(*point), median(found[np.isfinite(found)]), high=TOLERANCE))
+    return Outcome({"events": parts})
+
+
+@claim("B13", unit="1")
+def springs_without_history(ensemble) -> Outcome:
+    """The tangential force has no history: a closed loop of strain brings s back (Sec. V).
+
+    A shear goes on as long as no contact changes, for twenty steps at most, and back. This is log10
+    of the largest |Δs| after the loop over the largest |Δs| at its far end.
+
+    Asked of: every point with sheared samples.
+
+    Criterion: log10 of the part of s that is left is below -3.
+    """
+    samples = harmonic(ensemble, "loop_left", "loop_slide")
+    parts, notes = [], []
+    for point in samples.points("loop_left"):
+        left, slide, strain = (
+            samples.values(f"loop_{name}", *point) for name in ("left", "slide", "strain")
+        )
+        moved = slide > 0.0
+        part = np.log10(np.maximum(left[moved] / slide[moved], SMALLEST_ASYMMETRY))
+        parts.append(Part(label(*point), mean(part), high=MAX_LOG_LEFT))
+        notes.append(f"At {label(*point)} the loops reach γ = {mean(strain[moved])}.")
+    return Outcome({"loops without a change of contacts": parts}, " ".join(notes))
 
 
 def _pairs(samples: Samples, point: tuple[float, float]) -> str:

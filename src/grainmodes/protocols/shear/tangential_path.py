@@ -21,11 +21,17 @@ second order in the step. Where a law lets springs slip, ds is the part that the
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
+from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.contacts import Contacts
+from grainmodes.packing.state import Packing
+from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.shear.first_event import accepted_steps
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 
@@ -104,3 +110,19 @@ def _length_difference(path: np.ndarray, contacts: Contacts) -> np.ndarray:
 
 def _largest_and_median(values: np.ndarray) -> tuple[float, float]:
     return (float(values.max()), float(np.median(values))) if len(values) else (np.nan, np.nan)
+
+
+def path_errors(packing: Packing, interaction: Interaction, choices: Shear) -> list[PathError]:
+    """Err of every state along a shear in whole steps Δγ_in, up to its first event.
+
+    Raises:
+        ArithmeticError: the packing has no stable equilibrium.
+    """
+    whole_steps = replace(choices, min_step=choices.step)
+    run = QuasistaticRun.from_packing(packing, interaction, whole_steps)
+    path, errors = TangentialPath(run.state.equilibrium), []
+    for _, state in accepted_steps(run):
+        if run.events:
+            break
+        errors.append(path.follow(state.equilibrium))
+    return errors

@@ -1,0 +1,63 @@
+"""A closed loop of strain: do the springs come back? B, Sec. V, says that they have no history.
+
+A shear in steps Δγ_in goes on as long as no contact opens, closes or lets go of its spring, at most
+for `MAX_STEPS` steps, and then back to the first strain through the same strains. Without history
+every spring then is what it was:
+
+    left = max|s − s_0| after the loop,   slide = max|s − s_0| at its largest strain
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from grainmodes.kernels.laws import Interaction
+from grainmodes.packing.state import Packing
+from grainmodes.parameters.strain import Shear
+from grainmodes.protocols.shear.first_event import accepted_steps
+from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
+from grainmodes.protocols.shear.strain_step import step_to
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
+
+MAX_STEPS = 20
+"""Steps to the largest strain of the loop, at most."""
+
+
+class Loop(NamedTuple):
+    """A closed loop; `slide` and `left` are in the unit of the springs, NaN without a step."""
+
+    strain: float
+    slide: float
+    left: float
+
+
+def closed_loop(packing: Packing, interaction: Interaction, choices: Shear) -> Loop:
+    """The loop of a packing in balance.
+
+    Raises:
+        ArithmeticError: there is no stable equilibrium on the way.
+    """
+    whole_steps = replace(choices, min_step=choices.step)
+    run = QuasistaticRun.from_packing(packing, interaction, whole_steps)
+    first, strains, last = run.state.equilibrium, [run.state.strain], run.state.equilibrium
+    for _, after in accepted_steps(run):
+        if run.network_changes or len(strains) > MAX_STEPS:
+            break
+        strains.append(after.strain)
+        last = after.equilibrium
+    if len(strains) == 1:
+        return Loop(strains[0], np.nan, np.nan)
+    back = last
+    for strain in strains[-2::-1]:
+        back, _ = step_to(strain, back, whole_steps)
+    return Loop(strains[-1], _largest_change(first, last), _largest_change(first, back))
+
+
+def _largest_change(before: EquilibriumState, after: EquilibriumState) -> float:
+    """max|Δs| over the contacts of both states between grains that carry load."""
+    one, other = before.backbone.contacts, after.backbone.contacts
+    _, here, there = np.intersect1d(one.key, other.key, assume_unique=True, return_indices=True)
+    return float(np.abs(other.springs[there] - one.springs[here]).max(initial=0.0))
