@@ -54,6 +54,17 @@ def test_another_fraction_starts_from_the_checkpoints(study):
     assert study.planned() == new | AFTER_POINTS | {"point": 2}
 
 
+def test_compression_with_friction_has_files_of_its_own(study):
+    grid = SCENE["grids"][0] | {"n": [24], "preparation": "frictional"}
+    scene = SCENE | {"grids": [SCENE["grids"][0], grid]}
+    study.write_scene(scene)
+    compressed = {"compress_with_friction": 12, "equilibrate_with_friction": 4}
+    new = compressed | {"rigidity": 4, "step_strain": 4, "spectrum": 4}
+    assert study.planned() == new | AFTER_POINTS
+    file = "results/tiny/packings/n~24/phi~0.85/kt~1.0/seeds~0000-0001.nc"
+    assert study.planned(file) == {"compress_with_friction": 6, "equilibrate_with_friction": 1}
+
+
 @pytest.mark.parametrize(
     ("source", "rules"),
     [

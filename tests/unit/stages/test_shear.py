@@ -225,3 +225,14 @@ def test_a_shear_without_brackets_stands_beside_it():
     known = np.isfinite(width)
     assert known.any()
     np.testing.assert_allclose(width[known], values["bracket_min_step"][known], rtol=1e-6)
+
+
+def test_the_checks_of_the_first_event_are_there():
+    packing = reference(LOOSE)[1]
+    found = shear_block(packings(packing), LAW, replace(CHOICES, strain=0.05), coarse_run=True)
+    values = {name: array[0] for name, array in found.variables.items()}
+    assert 0.0 < values["rate_difference"] < 1e-2
+    assert 0.0 <= values["loop_left"] < 1e-2 * values["loop_slide"]
+    turned, err = values["path_turn_median"], values["path_error_largest"]
+    assert values["path_count"] == np.isfinite(err).sum() > 1
+    assert np.all(err[turned > 1e-9] > 1e-10)

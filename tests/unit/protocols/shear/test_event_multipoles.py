@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from grainmodes.packing.state import Packing
-from grainmodes.protocols.shear.event_multipoles import rotational_multipoles
+from grainmodes.protocols.shear.event_multipoles import PERMUTATIONS, rotational_multipoles
 
 N, LENGTH = 4000, 60.0
 
@@ -31,16 +31,27 @@ def event(turns: np.ndarray) -> np.ndarray:
 def test_four_domains_are_a_quadrupole(strain):
     packing, angle, distance = scattered(strain)
     near = (distance > 0.0) & (distance < LENGTH / 2.0)
-    four, others = rotational_multipoles(packing, event(np.cos(2.0 * angle) * near))
+    four, others, rank = rotational_multipoles(packing, event(np.cos(2.0 * angle) * near))
     assert four == pytest.approx((np.pi / 4.0) ** 2, rel=0.05)
     assert others < 0.01
+    assert rank == 1.0 / (1 + PERMUTATIONS)
 
 
 def test_other_domains_and_none_are_no_quadrupole():
     packing, angle, _ = scattered()
-    four, others = rotational_multipoles(packing, event(np.cos(3.0 * angle)))
+    four, others, rank = rotational_multipoles(packing, event(np.cos(3.0 * angle)))
     assert four < 0.01 and others == pytest.approx((np.pi / 4.0) ** 2 / 3.0, rel=0.05)
+    assert rank > 0.05
     at_random = np.random.default_rng(1).standard_normal(N)
-    assert max(rotational_multipoles(packing, event(at_random))) < 20.0 / N
+    assert max(rotational_multipoles(packing, event(at_random))[:2]) < 20.0 / N
     assert np.isnan(rotational_multipoles(packing, event(np.zeros(N)))).all()
     assert np.isnan(rotational_multipoles(packing, event(at_random)[:, :2])).all()
+
+
+def test_rotations_at_random_have_every_rank():
+    """One in twenty is among the first twentieth."""
+    packing, *_ = scattered()
+    draws = np.random.default_rng(2).standard_normal((60, N))
+    ranks = np.array([rotational_multipoles(packing, event(turns)).rank for turns in draws])
+    assert 0.35 < ranks.mean() < 0.65
+    assert (ranks <= 0.05).sum() < 10
