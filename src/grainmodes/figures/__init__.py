@@ -27,11 +27,13 @@ from importlib import import_module
 from pathlib import Path
 
 import matplotlib.style
+import pandas as pd
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from grainmodes.dataset.files import BlockError
 from grainmodes.ensemble import contact_law, open_ensemble
-from grainmodes.figures.shared import captions, labels
+from grainmodes.figures.shared import captions, labels, missing
 from grainmodes.figures.shared.sample_files import law_of, read_samples
 from grainmodes.figures.shared.selection import Options
 from grainmodes.parameters.figures import FIGURES, FORMS
@@ -60,21 +62,31 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
     if name not in FIGURES:
         raise ValueError(f"figure: expected one of {', '.join(FIGURES)}, got {name!r}")
     module = import_module(f"grainmodes.figures.{FIGURES[name].room}.{name}")
+    chosen = Options.read(name, options)
     with _opened(name, data) as source:
-        table = module.table(source, Options.read(name, options))
+        short = missing.shortages(name, source)
+        try:
+            table = module.table(source, chosen)
+        except (BlockError, ValueError):
+            # A variable, or all values of a coordinate, are gone together with their samples.
+            if options or not short or not missing.is_requested(name, source):
+                raise
+            table = pd.DataFrame(columns=list(module.COLUMNS))
         law = law_of(source[0]) if isinstance(source, list) else contact_law(source)
-    title = FIGURES[name].title
+    title, lacking = FIGURES[name].title, missing.notes(name, short, table)
     with matplotlib.style.context(STYLE):
         figure = Figure()
         FigureCanvasAgg(figure)
         if table.empty:
-            labels.say_empty(figure)
-            caption = captions.in_paragraphs(f"{title}.", f"{labels.EMPTY}.")
+            labels.say_empty(figure, lacking)
+            caption = captions.in_paragraphs(f"{title}.", f"Empty: {captions.listed(lacking)}.")
         else:
             module.draw(figure, table)
-            caption = captions.caption_text(title, module.caption(table), table, law)
-        numbers = _header(title, module.COLUMNS) + table.to_csv(index=False)
-        _write(Path(out_stem), figure, numbers, caption)
+            labels.write_below(figure, lacking)
+            caption = captions.caption_text(title, module.caption(table), table, law, lacking)
+        header = _header(title, module.COLUMNS, lacking)
+        numbers = header + table.to_csv(index=False)
+        _write(Path(out_stem), figure, numbers, caption, beyond=bool(lacking))
 
 
 @contextmanager
@@ -88,15 +100,19 @@ def _opened(name: str, data: str | Path | list[Path]) -> Iterator:
             yield ensemble
 
 
-def _header(title: str, columns: dict[str, tuple[str, str]]) -> str:
+def _header(title: str, columns: dict[str, tuple[str, str]], lacking: list[str]) -> str:
     lines = [title, *(f"{name} [{unit}]: {meaning}" for name, (unit, meaning) in columns.items())]
+    lines += [f"missing: {labels.plain(line)}" for line in lacking]
     return "".join(f"# {line}\n" for line in lines)
 
 
-def _write(stem: Path, figure: Figure, numbers: str, caption: str) -> None:
+def _write(stem: Path, figure: Figure, numbers: str, caption: str, beyond: bool) -> None:
+    """Write all four files; `beyond`: something is drawn outside of the figure."""
     png, pdf, csv, txt = (stem.with_name(f"{stem.name}.{form}") for form in FORMS)
     with replaced(png) as png, replaced(pdf) as pdf, replaced(csv) as csv, replaced(txt) as txt:
-        figure.savefig(png, format="png", dpi=DOTS_PER_INCH, metadata={"Software": None})
-        figure.savefig(pdf, format="pdf", dpi=PDF_DOTS_PER_INCH, metadata={"CreationDate": None})
+        box, metadata = "tight" if beyond else None, {"Software": None}
+        figure.savefig(png, format="png", dpi=DOTS_PER_INCH, metadata=metadata, bbox_inches=box)
+        metadata = {"CreationDate": None}
+        figure.savefig(pdf, format="pdf", dpi=PDF_DOTS_PER_INCH, metadata=metadata, bbox_inches=box)
         csv.write_text(numbers, encoding="utf-8")
         txt.write_text(caption, encoding="utf-8")

@@ -14,10 +14,9 @@ from matplotlib.animation import PillowWriter
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from grainmodes.dataset.files import BlockError
 from grainmodes.figures import STYLE
 from grainmodes.figures.paper_c import release_spirals
-from grainmodes.figures.shared import labels
+from grainmodes.figures.shared import labels, missing
 from grainmodes.figures.shared.appearance import ROTATIONAL, TRANSLATIONAL
 from grainmodes.figures.shared.release_rows import release_caption
 from grainmodes.figures.shared.sample_files import read_samples
@@ -34,7 +33,7 @@ TRAIL_FRAMES = 24
 
 
 def write(data: list[Path], output: Path, options: dict) -> None:
-    """Write the film of one released sample as a GIF.
+    """Write the film of one released sample as a GIF; a single empty frame if there is none.
 
     Args:
         data: files of `grainmodes release`.
@@ -42,30 +41,35 @@ def write(data: list[Path], output: Path, options: dict) -> None:
 
     Raises:
         ValueError: no sample has the requested n, phi, kt or seed.
-        BlockError: a file is not readable, or none holds a film.
+        BlockError: a file is not readable.
         OSError: the file cannot be written.
     """
     releases = read_samples(data, "release")
     table = release_spirals.table(releases, Options.read("release_spirals", options))
-    if table.empty:
-        raise BlockError("no released sample holds a film; expected at least one")
+    name = "release_spirals"
+    lacking = missing.notes(name, missing.shortages(name, releases), table)
     with matplotlib.style.context(STYLE):
         figure = Figure(figsize=(4.4, 4.8))
         FigureCanvasAgg(figure)
         with replaced(output) as partial:
             # Pillow chooses the format by the suffix alone
             with_suffix = partial.with_suffix(".gif")
-            _write_frames(figure, table, with_suffix)
+            if table.empty:
+                labels.say_empty(figure, lacking)
+                figure.savefig(with_suffix, format="gif", dpi=DOTS_PER_INCH)
+            else:
+                _write_frames(figure, table, lacking, with_suffix)
             with_suffix.replace(partial)
 
 
-def _write_frames(figure: Figure, table, path: Path) -> None:
+def _write_frames(figure: Figure, table, lacking: list[str], path: Path) -> None:
     axes, paths = figure.subplots(), release_spirals.trajectories(table)
     release_spirals.draw_grains_at_start(axes, table)
     side = min(MAX_SIDE, table["box_length"].iloc[0])
     axes.set(xlim=(0.0, side), ylim=(0.0, side))
     factor = labels.power(table["factor"].iloc[0])
-    figure.suptitle(f"{release_caption(table)}\ndisplacements drawn ${factor}$ times as long")
+    note = f"displacements drawn ${factor}$ times as long"
+    figure.suptitle("\n".join([release_caption(table), note, *lacking]))
     lines = release_spirals.add_paths(axes, paths[:2])
     lines.set(array=None, color=ROTATIONAL, lw=0.9)
     (heads,) = axes.plot([], [], ".", color=TRANSLATIONAL, ms=3.0)

@@ -5,6 +5,7 @@
 | `selection`        | the options of a study; which values of the grid a figure shows        |
 | `columns`          | columns of the CSV files that recur                                    |
 | `appearance`       | colours, symbols, legend entries                                       |
+| `missing`          | samples that a figure lacks, and why                                   |
 | `labels`           | numbers as formulas, units of axes, titles, lines above pictures       |
 | `captions`         | the text beside every picture                                          |
 | `rigidity_rows`    | mean G at the points of a grid: A, Figs. 4 to 6                        |

@@ -52,15 +52,24 @@ class Caption(NamedTuple):
     look_at: str
 
 
-def caption_text(title: str, caption: Caption, table: pd.DataFrame, law: ContactLaw) -> str:
+def caption_text(
+    title: str, caption: Caption, table: pd.DataFrame, law: ContactLaw, lacking: list[str]
+) -> str:
     """The whole caption: title, what is drawn, of which samples, and what to look at.
 
     Args:
         table: the plotted numbers, at least one row.
         law: contact law of the scene.
+        lacking: what `missing.notes` says of samples that are missing.
     """
     drawn = f"Drawn: {'; '.join([*_grid_values(table), _samples(table), law_words(table, law)])}."
-    return in_paragraphs(f"{title}.", caption.shows, drawn, f"Look at: {caption.look_at}")
+    absent = [f"Missing: {listed(lacking)}."] if lacking else []
+    return in_paragraphs(f"{title}.", caption.shows, drawn, *absent, f"Look at: {caption.look_at}")
+
+
+def listed(lines: list[str]) -> str:
+    """Lines of a picture as one sentence."""
+    return "; ".join(map(labels.plain, lines))
 
 
 def in_paragraphs(*texts: str) -> str:

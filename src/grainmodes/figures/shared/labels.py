@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import textwrap
 from fractions import Fraction
 
 from matplotlib.axes import Axes
@@ -12,7 +13,8 @@ from matplotlib.figure import Figure
 MODULUS_UNIT = {"hertz": r"$(k_N d^{1/2})$", "harmonic": "$k_N$"}
 """Unit of a modulus under each normal contact law."""
 
-EMPTY = "no converged sample to show"
+CHARACTERS_PER_INCH = 22
+"""Number of characters of small print in an inch."""
 
 MAX_DENOMINATOR = 99
 """Largest denominator of a k_T/k_N that is written as a ratio."""
@@ -52,9 +54,9 @@ def ratio(kt: float) -> str:
 
 
 def plain(formula: str) -> str:
-    r"""A formula of `power` or `ratio` as text: 3\times 10^{-2} → 3 × 10⁻²."""
-    raised = re.sub(r"\^\{(.+)\}", lambda found: found[1].translate(SUPERSCRIPTS), formula)
-    return raised.replace(r"\times", " ×")
+    r"""Formulas of `power` and `ratio` as text: $3\times 10^{-2}$ → 3 × 10⁻²."""
+    raised = re.sub(r"\^\{(.+?)\}", lambda found: found[1].translate(SUPERSCRIPTS), formula)
+    return raised.replace(r"\times", " ×").replace("$", "")
 
 
 def fraction(phi: float) -> str:
@@ -108,6 +110,26 @@ def name_panel(axes: Axes, index: int, text: str) -> None:
     axes.set_title(f"({'abcdefgh'[index]}) {text}", loc="left")
 
 
-def say_empty(figure: Figure) -> None:
-    """Say that the source has no point to show."""
-    figure.text(0.5, 0.5, EMPTY, ha="center", va="center")
+def say_empty(figure: Figure, lines: list[str]) -> None:
+    """Draw an empty frame, and in it why there is nothing to show."""
+    axes = figure.subplots()
+    axes.set(xticks=[], yticks=[])
+    axes.minorticks_off()
+    text = _wrapped(figure, lines)
+    axes.text(0.5, 0.5, text, ha="center", va="center", transform=axes.transAxes, fontsize=8)
+
+
+def write_below(figure: Figure, lines: list[str]) -> None:
+    """Write below a figure which samples it lacks; nothing without lines.
+
+    The text lies outside of the figure, whose picture `savefig(bbox_inches="tight")` then widens.
+    """
+    if lines:
+        text = "missing: " + _wrapped(figure, lines)
+        figure.text(0.02, -0.01, text, ha="left", va="top", fontsize=7, color="#b2182b")
+
+
+def _wrapped(figure: Figure, lines: list[str]) -> str:
+    """Lines that fit into the width of a figure at 7 or 8 points."""
+    width = int(CHARACTERS_PER_INCH * figure.get_figwidth())
+    return "\n".join(textwrap.fill(line, width) for line in lines)

@@ -77,7 +77,7 @@ def released_samples(blocks: list[Block], options: Options) -> list[ReleasedSamp
     Raises:
         ValueError: no sample has the requested n, phi or kt.
     """
-    released = [block for block in blocks if block.variables["release_found"].any()]
+    released = [block for block in blocks if np.any(block.variables.get("release_found", 0))]
     samples = [
         ReleasedSample(block, row)
         for block in at_kt(at_point(released, options, PAPER_N), options)
