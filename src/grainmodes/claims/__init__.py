@@ -8,6 +8,7 @@ from grainmodes.claims import paper_a, paper_b, paper_c
 from grainmodes.claims.claim import NOT_TESTED, Claim, Verdict
 from grainmodes.claims.samples import points_left_out
 from grainmodes.ensemble import open_ensemble
+from grainmodes.ensemble.lost import lost_in_words, lost_samples
 
 CLAIMS: tuple[Claim, ...] = (*paper_a.CLAIMS, *paper_b.CLAIMS, *paper_c.CLAIMS)
 """A1 to A19, B1 to B14, then C1 to C9."""
@@ -37,7 +38,9 @@ def first_tested(paths: list[Path]) -> tuple[list[Verdict], str]:
     remarks = []
     for path in paths:
         with open_ensemble(path) as opened:
-            found, remark = check(opened), points_left_out(opened)
+            found = check(opened)
+            remarks_here = (points_left_out(opened), lost_in_words(lost_samples(opened)))
+        remark = " ".join(filter(None, remarks_here))
         kept = verdicts or found
         verdicts = [
             new if old.verdict == NOT_TESTED else old for old, new in zip(kept, found, strict=True)

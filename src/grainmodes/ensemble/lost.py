@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
 from grainmodes.dataset.files import Block
@@ -72,9 +72,18 @@ def lost_in_blocks(blocks: Iterable[Block]) -> list[LostSample]:
     return sorted(found)
 
 
-def by_stage(lost: Iterable[LostSample]) -> Mapping[str, list[LostSample]]:
-    """Stage → its lost samples."""
+def lost_in_words(lost: Iterable[LostSample]) -> str:
+    """How many samples were lost in which stage, with the first of each; nothing without any.
+
+    >>> first = LostSample("failures", "shear", 16, 0.9, 1.0, 3, "no balance")
+    >>> lost_in_words([first, first._replace(seed=4)])
+    'Lost samples: 2 failed in shear (n = 16, phi = 0.9, kt = 1, seed 3: no balance; ...).'
+    """
     found: dict[str, list[LostSample]] = {}
     for sample in lost:
-        found.setdefault(sample.stage, []).append(sample)
-    return found
+        found.setdefault(f"{sample.words} in {sample.stage}", []).append(sample)
+    parts = [
+        f"{len(samples)} {words} ({samples[0]}{'; ...' if len(samples) > 1 else ''})"
+        for words, samples in found.items()
+    ]
+    return f"Lost samples: {'; '.join(parts)}." if parts else ""

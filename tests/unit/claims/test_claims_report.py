@@ -1,6 +1,7 @@
 """The table of verdicts as text, page and CSV, and the command that writes it."""
 
 import csv
+import json
 
 import numpy as np
 
@@ -8,7 +9,7 @@ import claim_fixtures
 from grainmodes.claims import check, report
 from grainmodes.cli import main
 
-COUNTS = {"A": 19, "B": 10, "C": 9}
+COUNTS = {"A": 19, "B": 14, "C": 9}
 NAMES = [f"{paper}{number + 1}" for paper, count in COUNTS.items() for number in range(count)]
 
 
@@ -27,6 +28,18 @@ def test_reports_hold_every_claim(tmp_path):
     assert {line.count("|") for line in table} == {8}
     assert "18 holds" in report.as_text(found)
     assert f"{len(found) - 18} not tested" in report.as_text(found)
+
+
+def test_the_page_names_lost_samples(tmp_path, capsys):
+    path = tmp_path / "ensemble.nc"
+    lost = {"spectrum": {"16,0.9,1.0,2": "no balance"}}
+    whole = claim_fixtures.ensemble().assign_coords(mode=np.arange(192))
+    whole.assign_attrs(failures=json.dumps(lost)).to_netcdf(path)
+    assert main(["claims", str(path), "-o", str(tmp_path / "claims.md")]) == 0
+    sentence = "Lost samples: 1 failed in spectrum (n = 16, phi = 0.9, kt = 1, seed 2: no balance)."
+    assert sentence in (tmp_path / "claims.md").read_text(encoding="utf-8").split("\n\n|")[0]
+    assert main(["claims", str(path)]) == 0
+    assert sentence in capsys.readouterr().out
 
 
 def test_the_command_prints_writes_and_refuses(tmp_path, capsys):
