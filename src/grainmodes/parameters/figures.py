@@ -100,6 +100,11 @@ FIGURES = {
         "Stress against strain with events bracketed and without brackets (paper B, Fig. 2)",
         ("shear", "coarse_run"),
     ),
+    "stress_drop": Figure(
+        "paper_b",
+        "Smallest eigenvalue, rigidity and stress around the largest stress drop (paper B, Fig. 3)",
+        ("shear",),
+    ),
     "rigidity_strain": Figure(
         "paper_b", "Rigidity and smallest eigenvalue at small strain (paper B, Fig. 7)", ("shear",)
     ),
@@ -108,7 +113,7 @@ FIGURES = {
     ),
     "event_states": Figure(
         "paper_b",
-        "Smallest eigenvalue and rigidity around an event (paper B, Figs. 3 and 13)",
+        "Smallest eigenvalue and rigidity close to an event (paper B, Fig. 13)",
         ("event_detail",),
         "event_detail",
     ),

@@ -12,6 +12,8 @@ first, and then over the samples.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from grainmodes.claims.claim import Outcome, claim
@@ -20,6 +22,9 @@ from grainmodes.claims.part import Part
 from grainmodes.claims.samples import Samples, label
 from grainmodes.ensemble.curves import Approach, Curve
 from grainmodes.statistics.estimates import mean
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 MAX_TREND = 0.05
 """Relative change of λ_min before an event that counts as a precursor; a square root gives 1."""
@@ -258,7 +263,7 @@ def _by_sample(values: np.ndarray) -> np.ndarray:
 
 
 @claim("B14", unit="1")
-def jumps_grow_with_strain(ensemble) -> Outcome:
+def jumps_grow_with_strain(ensemble: xr.Dataset) -> Outcome:
     """The jump of the rigidity in an event near γ = 0.001 is smaller than near γ = 0.341 (Fig. 7).
 
     This is log10 of the mean |Δg| of the events of a sample at γ ≥ 0.25, minus that at γ ≤ 0.05.

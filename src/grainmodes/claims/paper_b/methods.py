@@ -7,6 +7,8 @@ complex pairs   event_complex_pairs_after, of M⁻¹J                Sec. III A:
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from grainmodes.claims.claim import Outcome, claim
@@ -15,6 +17,9 @@ from grainmodes.claims.part import Part
 from grainmodes.claims.samples import Samples, label
 from grainmodes.statistics.estimates import mean
 from grainmodes.statistics.medians import median
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 MAX_LOG_ASYMMETRY = -12.0
 """log10 of max|J - Jᵀ| / max|J| below which an asymmetry is round-off."""
@@ -109,7 +114,7 @@ def critical_strain_converges(ensemble) -> Outcome:
 
 
 @claim("B6", unit="1")
-def tangential_integral(ensemble) -> Outcome:
+def tangential_integral(ensemble: xr.Dataset) -> Outcome:
     """The integral of the tangential velocity of a contact stays tangential (App. A, Fig. 10).
 
     This is log10 of the largest Err of (A1) among the contacts, in the last state before the first
@@ -144,7 +149,7 @@ def _last(series: np.ndarray) -> np.ndarray:
 
 
 @claim("B11", unit="1")
-def symmetric_jacobian(ensemble) -> Outcome:
+def symmetric_jacobian(ensemble: xr.Dataset) -> Outcome:
     """The Jacobian is symmetric at any strain (App. C 2, D 3).
 
     This is log10 of max|J - Jᵀ| / max|J| of the state after an event, averaged over events.
@@ -168,7 +173,7 @@ def symmetric_jacobian(ensemble) -> Outcome:
 
 
 @claim("B12", unit="1")
-def rate_after_event(ensemble) -> Outcome:
+def rate_after_event(ensemble: xr.Dataset) -> Outcome:
     """dq̊/dγ of linear response just after an event is that of the simulation (Fig. 5).
 
     This is |simulation - theory| / |theory| of the field of all grains after the first event of
@@ -187,7 +192,7 @@ def rate_after_event(ensemble) -> Outcome:
 
 
 @claim("B13", unit="1")
-def springs_without_history(ensemble) -> Outcome:
+def springs_without_history(ensemble: xr.Dataset) -> Outcome:
     """The tangential force has no history: a closed loop of strain brings s back (Sec. V).
 
     A shear goes on as long as no contact changes, for twenty steps at most, and back. This is log10

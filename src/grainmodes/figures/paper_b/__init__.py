@@ -4,7 +4,8 @@
 | -------------------- | ---------- | --------------------------------------------------------- |
 | `stress_strain`      | 1, 8       | stress against strain, theory and simulation              |
 | `stress_brackets`    | 2          | stress against strain, events bracketed and not           |
-| `event_states`       | 3, 13      | smallest eigenvalue and rigidity around an event          |
+| `stress_drop`        | 3          | smallest eigenvalue, rigidity and stress at a large drop  |
+| `event_states`       | 13         | smallest eigenvalue and rigidity close to an event        |
 | `event_eigenvectors` | 4          | the eigenvector of the smallest eigenvalue, as maps       |
 | `event_rate`         | 5          | non-affine displacement rate after an event, as maps      |
 | `event_displacement` | 6          | non-affine displacement in an event, as a map             |

@@ -1,4 +1,4 @@
-"""Smallest eigenvalue λ_min and rigidity g around an event: B, Figs. 3 and 13.
+"""Smallest eigenvalue λ_min and rigidity g close to an event: B, Fig. 13.
 
 (a) λ_min and (b) g against γ − γ_c, squares before and circles after the event; dots: slope of the
 stress, B (17). (c) What separates both from their values at the edge γ_c− of the event, with a

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pandas as pd
 
@@ -45,9 +47,17 @@ def choose_point(points: list[tuple[int, float, float]], options: Options) -> di
     return chosen
 
 
-def one_curve(ensemble, options: Options, column_names: dict) -> tuple[Curve | None, pd.DataFrame]:
+def one_curve(
+    ensemble,
+    options: Options,
+    column_names: dict,
+    prefer: Callable[[Curve], float] = lambda curve: 0.0,
+) -> tuple[Curve | None, pd.DataFrame]:
     """The curve of one sample, and a row per state of it where only the columns `SAMPLE` are
     filled in.
+
+    Args:
+        prefer: where no seed is requested, the first sample that has the largest of this is shown.
 
     Raises:
         BlockError, ValueError: as `curves_at_point`; no curve has the requested seed.
@@ -55,10 +65,17 @@ def one_curve(ensemble, options: Options, column_names: dict) -> tuple[Curve | N
     point, found = curves_at_point(ensemble, options)
     if not found:
         return None, pd.DataFrame(columns=list(column_names))
-    seed = smallest_or(options.seed, np.array(sorted(found)), "seed")
+    seeds = np.array(sorted(found))
+    first = seeds[np.argmax([prefer(found[seed]) for seed in seeds])]
+    seed = smallest_or(options.seed, seeds, "seed") if options.seed is not None else int(first)
     curve = found[seed]
     rows = pd.DataFrame(index=range(len(curve.strain)), columns=list(column_names))
     return curve, rows.assign(**point, seed=seed)
+
+
+def has_early_event(curve: Curve) -> float:
+    """1 if a plastic event lies within the strains of B, Figs. 7 and 8, else 0."""
+    return float((curve.strain[:-1][curve.event] <= SMALL_STRAIN).any())
 
 
 def at_small_strain(strain: pd.Series, limit: float = SMALL_STRAIN) -> pd.Series:
