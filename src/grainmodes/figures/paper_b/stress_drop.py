@@ -6,6 +6,8 @@ become shorter towards the event. Of all samples that with the largest drop is s
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -19,6 +21,9 @@ from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.selection import Options
 from grainmodes.figures.shared.sheared_samples import SAMPLE, one_curve
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 COLUMNS = SAMPLE | {
     "distance": ("1", "strain of a state minus that of the event"),
     "strain": ("1", "strain of a state"),
@@ -30,7 +35,7 @@ STEPS_AROUND = 2.5
 """Steps Δγ_in on either side of the event, as in B: γ_c ± 2.5e-4."""
 
 
-def table(ensemble, options: Options) -> pd.DataFrame:
+def table(ensemble: xr.Dataset, options: Options) -> pd.DataFrame:
     """The states around the largest drop of σ, with the columns `COLUMNS`.
 
     Raises:
