@@ -79,12 +79,15 @@ def caption(table: pd.DataFrame) -> Caption:
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
     """Draw the three panels."""
-    figure.set_size_inches(7.0, 2.8)
+    figure.set_size_inches(7.0, 3.2)
     curves, brackets, convergence = figure.subplots(1, 3)
     _draw_curves(curves, table)
     ends = table[table["end"] != ""].pivot(index="min_step", columns="end", values="distance")
     _draw_ends(brackets, ends)
     _draw_convergence(convergence, ends)
+    entries = curves.get_legend_handles_labels()
+    title = r"(a): $\Delta\gamma_{\rm Th}$"
+    figure.legend(*entries, title=title, loc="outside lower center", ncols=len(entries[0]))
     critical = (table["strain"] - table["distance"]).iloc[0]
     figure.suptitle(labels.sample_caption(table, rf"$\gamma_c = {critical:.11f}$"))
 
@@ -99,7 +102,6 @@ def _draw_curves(axes: Axes, table: pd.DataFrame) -> None:
         axes.plot(1e4 * curve["distance"], curve["stress"], marker, **style, label=label)
     axes.set(xlabel=r"$(\gamma - \gamma_c) \times 10^4$")
     axes.set_ylabel(labels.modulus_label(r"$\sigma$", table))
-    axes.legend(title=r"$\Delta\gamma_{\rm Th}$", ncols=2)
     labels.name_panel(axes, 0, "stress around the event")
 
 
