@@ -62,7 +62,8 @@ class Moving:
 
 @dataclass
 class Scene:
-    """What does not change while grains move; `viscosity` of A, `drag` of B."""
+    """What does not change while grains move; `viscosity` of A, `drag` of B, of translations alone
+    in C."""
 
     law: ContactLaw
     diameter: np.ndarray
@@ -71,6 +72,7 @@ class Scene:
     strain: float = 0.0
     viscosity: float = 0.0
     drag: float = 0.0
+    drags_rotation: bool = True
 
     @property
     def inertia(self) -> np.ndarray:
@@ -95,9 +97,8 @@ def viscous(scene: Scene, pair: naive.Pair, velocity) -> np.ndarray:
 
 def damped_force(scene: Scene, pairs: list[naive.Pair], velocity) -> np.ndarray:
     """F̃ with every damping, (N, 3)."""
-    total = naive.net_force(scene.law, pairs, len(scene.mass)) - (
-        scene.drag * scene.inertia * velocity
-    )
+    dragged = scene.inertia * np.array([1.0, 1.0, float(scene.drags_rotation)])
+    total = naive.net_force(scene.law, pairs, len(scene.mass)) - scene.drag * dragged * velocity
     for pair in pairs:
         force = viscous(scene, pair, velocity)
         total[pair.i] += force

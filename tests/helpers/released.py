@@ -17,7 +17,8 @@ from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.release import Release
 from grainmodes.protocols.release.release_run import ReleaseRun
 from grainmodes.protocols.release.unstable_state import UnstableState
-from grainmodes.stages.rows import compute_block
+from grainmodes.relaxation.equilibrium_state import EquilibriumState
+from grainmodes.stages.rows import compute_block, stacked
 
 SHORT = Release(duration=18.0, min_time=0.0, n_records=600, spectra=0)
 """Ten e-folds of the fastest pair from its start on; it ends before contacts change."""
@@ -55,14 +56,33 @@ def series(run: ReleaseRun, name: str) -> np.ndarray:
     return np.array([getattr(record, name) for record in run.records])
 
 
+def sheared_equilibrium() -> EquilibriumState:
+    """This state, as the shear leaves it."""
+    start, _, interaction = state()
+    return EquilibriumState.from_packing(start.packing, interaction)
+
+
+def narrowed(equilibrium: EquilibriumState) -> EquilibriumState:
+    """The weakest contact left with an overlap of 1e-9 d by a grain that is made smaller."""
+    weakest = np.argmin(equilibrium.packing.contacts.overlap)
+    diameter = equilibrium.packing.diameter.copy()
+    diameter[equilibrium.packing.contacts.i[weakest]] -= 2.0 * (
+        equilibrium.packing.contacts.overlap[weakest] - 1e-9
+    )
+    return EquilibriumState.from_packing(
+        replace(equilibrium.packing, diameter=diameter), equilibrium.interaction
+    )
+
+
 def complex_pairs_block() -> Block:
-    """A block as the stage `complex_pairs` leaves it: this state, and a sample that met none."""
+    """A block as the stage `complex_pairs` leaves it: of two rates one has this state, and a sample
+    that met none."""
     start, law, _ = state()
     packing, mode = start.packing, start.mode
-    row = {
-        "converged": True,
+    found = {
         "unstable_found": 1,
         "unstable_strain": packing.strain,
+        "unstable_pair_count": 8,
         "unstable_fraction": packing.fraction.T,
         "unstable_rotation": packing.rotation,
         "unstable_contact_i": packing.history.i,
@@ -72,9 +92,17 @@ def complex_pairs_block() -> Block:
         "unstable_eigenvalue_imag": start.eigenvalue.imag,
         "unstable_mode_real": mode.real,
         "unstable_mode_imag": mode.imag,
+        "unstable_path_strain": [packing.strain],
+        "unstable_path_real_1": [start.eigenvalue.real],
+        "unstable_path_real_2": [start.eigenvalue.real],
+        "unstable_path_imaginary": [start.eigenvalue.imag],
+    }
+    row = {
+        "converged": True,
+        **stacked([{"unstable_found": 0}, found]),
         **{name: getattr(packing, name) for name in ("diameter", "mass", "box_length")},
     }
     point = {"n": packing.n, "phi": round(packing.phi, 12), "kt": law.kt, "stage": "complex_pairs"}
     return compute_block(
-        range(2), [row, {"converged": True, "unstable_found": 0}].__getitem__, point
+        range(2), [row, {"converged": True, "unstable_found": [0, 0]}].__getitem__, point
     )

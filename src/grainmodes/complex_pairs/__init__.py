@@ -11,4 +11,5 @@
 | `disc_sweep`          | all pairs of one large K by shift-invert Arnoldi, disc after disc     |
 | `arnoldi_discs`       | all eigenvalues in one disc                                           |
 | `matching`            | which pair of one state is which pair of the next                     |
+| `damped_growth`       | growth rate and threshold of a pair under a drag                      |
 """

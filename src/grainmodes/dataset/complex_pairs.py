@@ -24,8 +24,10 @@ POINT = ("seed", "exceptional_point")
 NEAR = ("seed", "neighbour_state")
 PATH = ("seed", "followed_state")
 PRODUCT = ("seed", "product")
-CONTACT = ("seed", "contact")
-GRAINS = ("seed", "grain", "component")
+RELEASE = ("seed", "release_state")
+RELEASE_CONTACT = (*RELEASE, "contact")
+RELEASE_GRAINS = (*RELEASE, "grain", "component")
+RELEASE_PATH = (*RELEASE, "path_state")
 KIND = (
     "0: nothing, 1: coalescence, 2: contact change, 3: jump, 4: invariant plane lost, 5: undecided"
 )
@@ -187,56 +189,84 @@ NAMES = {
         NUMBER,
         "scalar product of the eigenvectors of product_mode and product_other",
     ),
-    # the state to release
+    # the states to release, one for each growth rate that a scene lists
     "unstable_found": Variable(
-        BLOCK, "i1", NUMBER, "1 if a complex pair grows linearly far enough to be released, else 0"
+        RELEASE,
+        "i1",
+        NUMBER,
+        "1 if a state to release was found, whose pair grows linearly far enough, else 0",
     ),
-    "unstable_strain": Variable(
-        BLOCK, "f8", NUMBER, "strain of the state to release: that of the fastest such pair"
+    "unstable_strain": Variable(RELEASE, "f8", NUMBER, "strain of a state to release"),
+    "unstable_pair_count": Variable(
+        RELEASE, "i8", NUMBER, "number of complex pairs of the state to release"
     ),
     "unstable_fraction": Variable(
-        ("seed", "grain", "axis"), "i8", BOX_FRACTION, "grain position in the state to release"
+        (*RELEASE, "grain", "axis"), "i8", BOX_FRACTION, "grain position in the state to release"
     ),
     "unstable_rotation": Variable(
-        ("seed", "grain"), "f8", LENGTH, "rotation l of every grain in the state to release"
+        (*RELEASE, "grain"), "f8", LENGTH, "rotation l of every grain in the state to release"
     ),
     "unstable_contact_i": Variable(
-        CONTACT, "i4", NUMBER, "grain i of a contact in the state to release; -1: no contact"
+        RELEASE_CONTACT,
+        "i4",
+        NUMBER,
+        "grain i of a contact in the state to release; -1: no contact",
     ),
     "unstable_contact_j": Variable(
-        CONTACT, "i4", NUMBER, "grain j of a contact in the state to release; -1: no contact"
+        RELEASE_CONTACT,
+        "i4",
+        NUMBER,
+        "grain j of a contact in the state to release; -1: no contact",
     ),
     "unstable_spring_state": Variable(
-        CONTACT, "f8", SPRING_STATE, "spring state of a contact in the state to release"
+        RELEASE_CONTACT, "f8", SPRING_STATE, "spring state of a contact in the state to release"
     ),
     "unstable_eigenvalue_real": Variable(
-        BLOCK, "f8", SQUARED_RATE, "real part of the eigenvalue of J / M of the pair to release"
+        RELEASE, "f8", SQUARED_RATE, "real part of the eigenvalue of J / M of the pair to release"
     ),
     "unstable_eigenvalue_imag": Variable(
-        BLOCK,
+        RELEASE,
         "f8",
         SQUARED_RATE,
         "imaginary part of the eigenvalue of J / M of the pair to release",
     ),
     "unstable_condition": Variable(
-        BLOCK, "f8", NUMBER, "condition number of the eigenvalue of the pair to release"
+        RELEASE, "f8", NUMBER, "condition number of the eigenvalue of the pair to release"
     ),
     "unstable_residual": Variable(
-        BLOCK,
+        RELEASE,
         "f8",
         NUMBER,
         "residual of the plane of the pair to release, relative to the largest entry of J / M",
     ),
     "unstable_linear_range": Variable(
-        BLOCK, "f8", AREA, "M at which the linear growth of the pair first changes the contacts"
+        RELEASE, "f8", AREA, "M at which the linear growth of the pair first changes the contacts"
     ),
     "unstable_mode_real": Variable(
-        GRAINS,
+        RELEASE_GRAINS,
         "f8",
         NUMBER,
         "real part of the eigenvector q of J / M of the pair to release, (x, y, l), norm 1",
     ),
     "unstable_mode_imag": Variable(
-        GRAINS, "f8", NUMBER, "imaginary part of the eigenvector q of J / M of the pair to release"
+        RELEASE_GRAINS,
+        "f8",
+        NUMBER,
+        "imaginary part of the eigenvector q of J / M of the pair to release",
+    ),
+    "unstable_path_strain": Variable(
+        RELEASE_PATH,
+        "f8",
+        NUMBER,
+        "strain of a state along which the pair to release is followed; NaN: no state",
+    ),
+    "unstable_path_real_1": Variable(
+        RELEASE_PATH, "f8", SQUARED_RATE, "real part of lambda_1 of the pair to release there"
+    ),
+    "unstable_path_real_2": Variable(
+        RELEASE_PATH, "f8", SQUARED_RATE, "real part of lambda_2 of the pair to release there"
+    ),
+    "unstable_path_imaginary": Variable(
+        RELEASE_PATH, "f8", SQUARED_RATE, "imaginary part of lambda_1 of the pair to release there"
     ),
 }

@@ -22,12 +22,12 @@ class Variable(NamedTuple):
 
 NOT_GATHERED = {
     *("grain", "contact", "contact_before", "contact_after", "binary_before", "binary_after"),
-    *("frame", "record", "spectrum", "pair"),
+    *("frame", "record", "spectrum", "pair", "path_state", "spectrum_of_pair"),
 }
 """Dimensions of what stays in the files of a stage: grains, contacts, moments of a run."""
 
 
 def is_gathered(variable: Variable) -> bool:
-    """Whether a point keeps it: one number per sample, or one series per sample."""
+    """Whether a point keeps it: some numbers per sample, or a series per sample."""
     first, *rest = variable.dimensions or ("",)
-    return first == "seed" and len(rest) < 2 and not NOT_GATHERED & set(rest)
+    return first == "seed" and not NOT_GATHERED & set(rest)

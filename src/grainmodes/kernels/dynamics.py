@@ -26,7 +26,7 @@ import numpy as np
 
 from grainmodes.kernels.cache_blocks import GRAINS_PER_BLOCK, pair_scratch
 from grainmodes.kernels.compiler import kernel
-from grainmodes.kernels.damping import drag_rate, pair_viscosity
+from grainmodes.kernels.damping import drag_rate, pair_viscosity, rotational_drag_rate
 from grainmodes.kernels.lanes import lane_sum
 from grainmodes.kernels.laws import (
     advance_spring,
@@ -185,13 +185,13 @@ def kick_and_drift(grains, half_step, time_step, units, strain):
 @kernel
 def second_kick(grains, half_step, damping):
     """Add the drag to the forces and give the second half kick."""
-    rate = drag_rate(damping)
+    rate, spin_rate = drag_rate(damping), rotational_drag_rate(damping)
     for i in range(grains.x.shape[0]):
         mass = grains.mass[i]
         gain = half_step / mass
         grains.fx[i] -= rate * mass * grains.vx[i]
         grains.fy[i] -= rate * mass * grains.vy[i]
-        grains.torque[i] -= 0.5 * rate * mass * grains.w[i]
+        grains.torque[i] -= 0.5 * spin_rate * mass * grains.w[i]
         grains.vx[i] += gain * grains.fx[i]
         grains.vy[i] += gain * grains.fy[i]
         grains.w[i] += 2.0 * gain * grains.torque[i]

@@ -15,6 +15,8 @@ class PairChoices:
     "dense" solves every state anew, "discs" too, without a dense general solve.
     The first `max_located` births and as many deaths are bracketed to `bracket`, and their two
     modes are followed over `track_beyond` steps to both sides.
+    `release_rates` are ω_i in 1/t_0: for each the state whose fastest pair grows at the nearest
+    rate is kept for release. Without any it is the state of the fastest pair of the whole shear.
     """
 
     detection: str = "continuation"
@@ -22,3 +24,4 @@ class PairChoices:
     bracket: float = 1e-9
     track_beyond: int = 20
     jacobian: bool = False
+    release_rates: tuple[float, ...] = ()

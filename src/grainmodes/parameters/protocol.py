@@ -29,14 +29,15 @@ class Protocol:
     @classmethod
     def from_config(cls, config: Mapping[str, Mapping]) -> Protocol:
         """The choices in the complete and valid block `protocol` of a configuration."""
-        release = dict(config["release"])
+        release, pairs = dict(config["release"]), dict(config["complex_pairs"])
         release["dampings"] = tuple(release["dampings"])
+        pairs["release_rates"] = tuple(pairs["release_rates"])
         return cls(
             Compression(**config["compression"]),
             FrictionalCompression(**config["frictional_compression"]),
             StepStrain(**config["step_strain"]),
             Shear(**config["shear"]),
-            PairChoices(**config["complex_pairs"]),
+            PairChoices(**pairs),
             Release(**release),
             Rattlers(**config["rattlers"]),
             SpectrumChoices(**config["spectrum"]),

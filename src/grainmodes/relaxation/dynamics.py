@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from grainmodes.kernels.damping import Dashpot, Drag, Undamped
+from grainmodes.kernels.damping import Dashpot, Drag, TranslationalDrag, Undamped
 from grainmodes.kernels.dynamics import Grains, Stop, integrate, transfer_springs
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.neighbours import Neighbours, find_neighbours
@@ -28,7 +28,7 @@ from grainmodes.packing.state import Packing
 from grainmodes.relaxation.frictionless import SKIN
 from grainmodes.relaxation.result import RelaxationResult
 
-Damping = Dashpot | Drag | Undamped
+Damping = Dashpot | Drag | TranslationalDrag | Undamped
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,10 @@ from grainmodes.complex_pairs.definition import vectors_on_all_grains
 from grainmodes.complex_pairs.inverse_iteration import nearest_subspace
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
 from grainmodes.protocols.pair_tracking.exceptional_points import COALESCENCE, TwoModeState
-from grainmodes.protocols.pair_tracking.linear_range import ReleaseCandidate
 from grainmodes.protocols.pair_tracking.paths import follow_along, scalar_products_along
+from grainmodes.protocols.pair_tracking.release_candidates import ReleaseCandidate
 from grainmodes.protocols.pair_tracking.tracking import LocatedPoint, PairTrack, PairTracking
+from grainmodes.stages.rows import stacked
 
 
 def tracking_row(tracking: PairTracking) -> dict[str, object]:
@@ -23,7 +24,7 @@ def tracking_row(tracking: PairTracking) -> dict[str, object]:
         **_states(tracking),
         **_tracks(tracking.tracks),
         **_exceptional_points(tracking),
-        **_unstable_state(tracking.candidate),
+        **_unstable_states(tracking),
         "jammed": True,
         "converged": tracking.done,
     }
@@ -129,10 +130,17 @@ def _columns(
     return {f"{prefix}_{name}": values for name, values in columns}
 
 
-def _unstable_state(chosen: ReleaseCandidate | None) -> dict[str, object]:
-    """The state to release, its pair refined to the last digits."""
-    if chosen is None:
-        return {"unstable_found": False}
+def _unstable_states(tracking: PairTracking) -> dict[str, object]:
+    """The states to release, one after the other along the axis `release_state`."""
+    states = [
+        _unstable_state(candidate, tracking) if candidate else {"unstable_found": False}
+        for candidate in tracking.candidates.found
+    ]
+    return dict(stacked(states))
+
+
+def _unstable_state(chosen: ReleaseCandidate, tracking: PairTracking) -> dict[str, object]:
+    """A state to release, its pair refined to the last digits and followed along the shear."""
     equilibrium = chosen.state.equilibrium
     packing, side = equilibrium.packing, chosen.state.two_modes(chosen.place)
     springs = packing.history
@@ -140,10 +148,14 @@ def _unstable_state(chosen: ReleaseCandidate | None) -> dict[str, object]:
     subspace = nearest_subspace(
         mass_weighted_jacobian(equilibrium.matrix, equilibrium.backbone.mass), side.subspace
     )
-    mode = motion_of(TwoModeState(equilibrium, subspace))
+    pair = TwoModeState(equilibrium, subspace)
+    mode = motion_of(pair)
+    path = follow_along(pair, tracking.states, tracking.choices.track_beyond)
+    values = np.array([state.subspace.values for state in path])
     return {
         "unstable_found": True,
         "unstable_strain": packing.strain,
+        "unstable_pair_count": len(chosen.state.pairs.value),
         "unstable_fraction": packing.fraction.T,
         "unstable_rotation": packing.rotation,
         "unstable_contact_i": springs.i,
@@ -156,6 +168,10 @@ def _unstable_state(chosen: ReleaseCandidate | None) -> dict[str, object]:
         "unstable_linear_range": chosen.linear_range,
         "unstable_mode_real": mode.real,
         "unstable_mode_imag": mode.imag,
+        "unstable_path_strain": [state.strain for state in path],
+        "unstable_path_real_1": values[:, 0].real,
+        "unstable_path_real_2": values[:, 1].real,
+        "unstable_path_imaginary": values[:, 0].imag,
     }
 
 

@@ -2,8 +2,8 @@
 
 A row holds every state in numbers, every pair from its birth to its death, the exceptional points
 that were located with the states near them, the two modes of each along the shear, and the full
-state from which the dynamics is released (C, Sec. VI): that of the fastest pair whose growth
-changes no contact in its linear range.
+states from which the dynamics is released (C, Sec. VI), as `protocol.complex_pairs.release_rates`
+chooses them.
 """
 
 from __future__ import annotations

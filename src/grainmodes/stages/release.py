@@ -1,4 +1,4 @@
-"""The stage `release`: the dynamics from the unstable state of every sample, with every damping.
+"""The stage `release`: the dynamics from the unstable states of every sample, with every damping.
 
 A sample without a state to release is a row that says so.
 """
@@ -14,14 +14,15 @@ from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
-from grainmodes.parameters.release import Release
+from grainmodes.parameters.release import GROWTH_RANGE, Release
+from grainmodes.protocols.release.damping_theory import DampingTheory
 from grainmodes.protocols.release.release_run import ReleaseRun
 from grainmodes.protocols.release.unstable_state import UnstableState
 from grainmodes.response.stability import REAL_TOLERANCE
 from grainmodes.stages.long_runs import CheckpointStore, run_to_end
 from grainmodes.stages.packing_rows import history_in_row
-from grainmodes.stages.release_rows import runs_row
-from grainmodes.stages.rows import response_block
+from grainmodes.stages.release_rows import ReleasedRuns, state_row
+from grainmodes.stages.rows import response_block, stacked
 from grainmodes.stages.samples import seed_of
 
 MAX_RESIDUAL = 1e-6
@@ -34,7 +35,7 @@ def release_block(
     choices: Release,
     checkpoints: CheckpointStore[ReleaseRun] | None = None,
 ) -> Block:
-    """Release every sample of a block of the stage `complex_pairs` from its unstable state.
+    """Release every sample of a block of the stage `complex_pairs` from its unstable states.
 
     Args:
         checkpoints: where runs are saved now and then; each takes minutes.
@@ -42,29 +43,48 @@ def release_block(
     interaction = Interaction.from_law(law)
 
     def sample(number: int) -> dict[str, object]:
-        if not pairs.variables["unstable_found"][number]:
-            return {"release_found": 0, "converged": True}
-        start, seed = unstable_state(pairs, number), seed_of(pairs, number)
-        check_pair(start, interaction)
-        drags = [damping * start.growth_rate for damping in (0.0, *choices.dampings)]
-        begin = partial(ReleaseRun.from_state, start, interaction, choices)
-        runs = [
-            run_to_end(partial(begin, drag), checkpoints, f"seed-{seed}-{place}")
-            for place, drag in enumerate(drags)
-        ]
-        return runs_row(runs)
+        seed, states = seed_of(pairs, number), pairs.variables["unstable_found"][number]
+        rows: list[dict[str, object]] = [{"release_found": False} for _ in states]
+        for place in np.flatnonzero(states).tolist():
+            start = unstable_state(pairs, number, place)
+            check_pair(start, interaction)
+            runs = _runs(start, interaction, choices, seed, checkpoints, f"seed-{seed}-{place}")
+            rows[place] = state_row(runs) | _along_the_shear(pairs, number, place)
+        return dict(stacked(rows)) | {"converged": True}
 
     config = {"law": asdict(law), "release": asdict(choices)}
     return response_block(pairs, "release", config, law, sample)
 
 
-def unstable_state(block: Block, number: int) -> UnstableState:
-    """The unstable state in a row.
+def _runs(
+    start: UnstableState,
+    interaction: Interaction,
+    choices: Release,
+    seed: int,
+    checkpoints: CheckpointStore[ReleaseRun] | None,
+    name: str,
+) -> ReleasedRuns:
+    """All runs of one state: without damping, with every damping, and from noise."""
+    drags = np.array([0.0, *choices.dampings]) * start.growth_rate
+    begin = partial(ReleaseRun.from_state, start, interaction, choices)
+    noise = partial(
+        ReleaseRun.from_noise, start, interaction, choices, seed, 10.0 * GROWTH_RANGE[1]
+    )
+    starts = [*(partial(begin, float(drag)) for drag in drags), noise]
+    *kicked, from_noise = (
+        run_to_end(begun, checkpoints, f"{name}-{place}") for place, begun in enumerate(starts)
+    )
+    return ReleasedRuns(kicked, from_noise, DampingTheory.from_state(start, interaction, choices))
+
+
+def unstable_state(block: Block, number: int, place: int) -> UnstableState:
+    """The unstable state at a place of a row.
 
     Raises:
         PackingError: a stored value is NaN or infinite.
     """
     row = {name: array[number] for name, array in block.variables.items()}
+    row |= {name: array[place] for name, array in row.items() if name.startswith("unstable_")}
     packing = Packing(
         np.ascontiguousarray(row["unstable_fraction"].T),
         row["diameter"],
@@ -77,6 +97,16 @@ def unstable_state(block: Block, number: int) -> UnstableState:
     value = complex(row["unstable_eigenvalue_real"], row["unstable_eigenvalue_imag"])
     mode = row["unstable_mode_real"] + 1j * row["unstable_mode_imag"]
     return UnstableState(packing.checked(), value, mode)
+
+
+def _along_the_shear(block: Block, number: int, place: int) -> dict[str, object]:
+    """The pair along the shear, and the number of pairs of the state, as the row keeps them."""
+    row = {
+        name.replace("unstable_", "release_"): block.variables[name][number, place]
+        for name in block.variables
+        if name.startswith("unstable_path_")
+    }
+    return row | {"release_start_pairs": block.variables["unstable_pair_count"][number, place]}
 
 
 def check_pair(start: UnstableState, interaction: Interaction) -> None:

@@ -5,7 +5,7 @@ Why it is lost stands in the attributes of `dataset.lost`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -78,7 +78,7 @@ def compute_block(
                 entries = lost[kind].setdefault(str(attributes.get("stage", "none")), {})
                 entries[str(seed)] = str(row.pop(kind))
         rows.append(row)
-    variables = {"seed": np.array(seeds)} | _stacked(rows)
+    variables = {"seed": np.array(seeds)} | stacked(rows)
     return Block(variables, attributes | {"code_version": code_version()} | lost)
 
 
@@ -131,7 +131,7 @@ def stage_attributes(stage: str, config: dict[str, Any], **point: object) -> dic
     return {"title": f"grainmodes: {stage}", "stage": stage, "config": config, **point}
 
 
-def _stacked(rows: list[dict[str, Any]]) -> dict[str, np.ndarray]:
+def stacked(rows: Sequence[dict[str, Any]]) -> dict[str, np.ndarray]:
     """Arrays over all rows; shorter rows, and rows without a name, are filled up."""
     names = list(dict.fromkeys(name for row in rows for name in row)) or ["converged"]
     dtypes = {name: VARIABLES[name].dtype for name in names}

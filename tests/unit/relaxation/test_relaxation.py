@@ -15,7 +15,7 @@ from example_packings import (
     law_name,
     reference,
 )
-from grainmodes.kernels.damping import Dashpot, Drag, Undamped
+from grainmodes.kernels.damping import Dashpot, Drag, TranslationalDrag, Undamped
 from grainmodes.kernels.dynamics import Stop
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import max_force_and_torque, net_force
@@ -197,10 +197,11 @@ def test_a_small_displacement_advances_the_springs(law):
 DAMPINGS = {
     "dashpot": (Dashpot(0.7), {"viscosity": 0.7}),
     "drag": (Drag(0.5), {"drag": 0.5}),
+    "translational drag": (TranslationalDrag(0.5), {"drag": 0.5, "drags_rotation": False}),
     "undamped": (Undamped(), {}),
 }
 BY_LAW = [(law, "undamped") for law in LAWS]
-BY_DAMPING = [(law, damping) for law in (LAWS[1], LAWS[5]) for damping in ("dashpot", "drag")]
+BY_DAMPING = [(law, damping) for law in (LAWS[1], LAWS[5]) for damping in list(DAMPINGS)[:3]]
 
 
 @pytest.mark.parametrize(

@@ -109,6 +109,7 @@ def test_the_condition_of_the_fastest_pair_is_that_of_lapack(packing, found):
 
 def test_the_state_that_grows_fastest_is_whole(packing, found):
     values = {name: array[0] for name, array in found.variables.items()}
+    values |= {name: array[0] for name, array in values.items() if name.startswith("unstable_")}
     assert values["unstable_found"] == 1
     names = ("contact_i", "contact_j", "spring_state")
     held = values["unstable_contact_i"] >= 0
@@ -127,6 +128,22 @@ def test_the_state_that_grows_fastest_is_whole(packing, found):
     assert np.linalg.norm(q) == pytest.approx(1.0)
     growth = np.sqrt(value).imag
     assert growth == pytest.approx(np.nanmax(values["pair_growth"]), abs=1e-5)
+
+
+def test_states_of_listed_rates_are_whole_and_have_the_path_of_their_pair(packing):
+    slow = replace(ASKED, release_rates=(1e-3, 1e-9))
+    values = complex_pairs_block(packings(packing), LAW, SHEAR, slow).variables
+    assert values["unstable_found"].tolist() == [[1, 0]]
+    value = values["unstable_eigenvalue_real"][0, 0] + 1j * values["unstable_eigenvalue_imag"][0, 0]
+    rate = np.sqrt(value).imag
+    nearest = np.nanmin(np.abs(np.log10(values["pair_growth"] / 1e-3)))
+    assert abs(np.log10(rate / 1e-3)) == pytest.approx(nearest, rel=1e-6)
+    path = {name: values[f"unstable_path_{name}"][0, 0] for name in ("strain", "imaginary")}
+    here = path["strain"] == values["unstable_strain"][0, 0]
+    assert path["imaginary"][here] == pytest.approx(value.imag, rel=1e-6)
+    assert (path["imaginary"] == 0.0).any()
+    count = values["pair_count"][0][values["pair_strain"][0] == values["unstable_strain"][0, 0]]
+    assert values["unstable_pair_count"][0, 0] == count
 
 
 def test_a_sample_that_is_not_jammed_has_no_states(found):

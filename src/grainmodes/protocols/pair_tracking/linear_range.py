@@ -1,4 +1,4 @@
-"""The linear range of a growing pair, and which state to release: C, Sec. VI.
+"""The linear range of a growing pair: C, Sec. VI.
 
     Δq(t) = Re(a u e^(−iω_r t)),   |n·(Δr_i − Δr_j)| ≤ |a| |n·(u_i − u_j)|, once in a period
     M = |a|² ⟨|u_i|²⟩ / 2,   of (x, y) alone, mean over all grains and over a period          C (30)
@@ -8,9 +8,6 @@ nearly touch meet where it equals their gap. M at the first of these events is t
 the pair of modes. As along the shear, only contacts between grains that carry load are counted: a
 loose grain is placed with next to no gap to its neighbours, bears next to no force from them and
 exerts none.
-
-We release the fastest pair whose linear growth changes no contact in the range of M in which the
-growth is fitted.
 
 | symbol          | name          | shape, unit                            |
 | --------------- | ------------- | -------------------------------------- |
@@ -24,45 +21,14 @@ growth is fitted.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
-from grainmodes.parameters.release import GROWTH_RANGE
-from grainmodes.protocols.pair_tracking.detection import PairState
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 MAX_GAP = 0.1
 """Largest gap of a near contact, in d. Two grains further apart do not meet below M = 1e-11 d² in
 a packing of less than 1e8 grains, even if they alone move; and contacts overlap by less."""
-
-
-class ReleaseCandidate(NamedTuple):
-    """A state to release, with ω_i of its pair, the place of this pair, and its linear range."""
-
-    growth: float
-    state: PairState
-    place: int
-    linear_range: float
-
-
-def fastest_candidate(state: PairState, min_growth: float) -> ReleaseCandidate | None:
-    """The fastest pair of a state with a sufficient linear range; None without one.
-
-    Args:
-        min_growth: ω_i in 1/t_0 that the pair must exceed.
-    """
-    growth = state.pairs.growth
-    faster = np.flatnonzero(growth > min_growth)
-    if not len(faster):
-        return None
-    ranges = linear_ranges(state.equilibrium, state.motions(faster))
-    sufficient = ranges > GROWTH_RANGE[1]
-    if not sufficient.any():
-        return None
-    best = int(np.argmax(np.where(sufficient, growth[faster], 0.0)))
-    place = int(faster[best])
-    return ReleaseCandidate(float(growth[place]), state, place, float(ranges[best]))
 
 
 def linear_ranges(equilibrium: EquilibriumState, motions: np.ndarray) -> np.ndarray:

@@ -45,7 +45,7 @@ from grainmodes.protocols.pair_tracking.exceptional_points import (
     TwoModeState,
     locate_exceptional_point,
 )
-from grainmodes.protocols.pair_tracking.linear_range import ReleaseCandidate, fastest_candidate
+from grainmodes.protocols.pair_tracking.release_candidates import ReleaseCandidates
 from grainmodes.protocols.shear.events import count_network_changes
 from grainmodes.protocols.shear.strain_step import first_equilibrium, step_to
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
@@ -105,7 +105,7 @@ class PairTracking:
     alive: list[int] = field(default_factory=list)
     located: list[LocatedPoint] = field(default_factory=list)
     states: list[EquilibriumState] = field(default_factory=list)
-    candidate: ReleaseCandidate | None = None
+    candidates: ReleaseCandidates = field(default_factory=ReleaseCandidates)
 
     @classmethod
     def start(
@@ -121,6 +121,7 @@ class PairTracking:
         jacobian_detector = other if choices.jacobian else None
         now = detect_pairs(detector, equilibrium)
         tracking = cls(now, shear, choices, detector, jacobian_detector)
+        tracking.candidates = ReleaseCandidates(choices.release_rates)
         tracking.tracks = [PairTrack((np.nan, now.strain), NEVER) for _ in now.pairs.value]
         tracking.alive = list(range(len(tracking.tracks)))
         tracking._record()
@@ -184,7 +185,7 @@ class PairTracking:
             record.death, record.death_kind = ends, point.kind
 
     def _record(self) -> None:
-        """Record the state, the growth of its tracks, and a better candidate for release."""
+        """Record the state and the growth of its tracks, and consider it for release."""
         self.states.append(self.now.equilibrium.without_factors())
         pairs = self.now.pairs
         growth = pairs.growth
@@ -194,8 +195,7 @@ class PairTracking:
         if len(growth):
             place = int(np.argmax(growth))
             fastest, condition = complex(pairs.value[place]), float(pairs.condition[place])
-            min_growth = self.candidate.growth if self.candidate else 0.0
-            self.candidate = fastest_candidate(self.now, min_growth) or self.candidate
+        self.candidates.consider(self.now)
         numbers = len(growth), self._count_jacobian_pairs(), fastest, condition
         self.records.append(PairRecord(self.now.strain, *numbers, self.detector.dense))
 

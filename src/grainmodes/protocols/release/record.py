@@ -92,6 +92,14 @@ class GrainStress(NamedTuple):
     pressure: np.ndarray
     binary: np.ndarray
 
+    def pressure_by_contacts(self, max_z: int, min_grains: int) -> np.ndarray:
+        """Mean P_i of the grains with 0 … `max_z` contacts, (max_z + 1,).
+
+        NaN where there are fewer than `min_grains` of them.
+        """
+        groups = [self.pressure[self.contacts == z] for z in range(max_z + 1)]
+        return np.array([group.mean() if len(group) >= min_grains else np.nan for group in groups])
+
 
 def grain_stress(packing: Packing, interaction: Interaction) -> GrainStress:
     """Contact numbers and pressures of all grains and contacts: C, Figs. 9 and 10."""

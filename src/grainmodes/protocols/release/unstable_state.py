@@ -7,8 +7,8 @@ From rest in q with q̇ along ü^m = Re(c u^m), c = λ_r + λ_i + i(λ_i − λ_
 
     q(t) = Re(c u^m sin(Ωt) / Ω),   Ω = ω_r + iω_i,
 
-at late times a spiral e^(ω_i t) Re(c' u^m e^(−iω_r t)) of every grain. A drag −η q̇ changes the
-exponents to s² + ηs + λ^m = 0, so that ω_i falls by η/2 where η ≪ ω_r.
+at late times a spiral e^(ω_i t) Re(c' u^m e^(−iω_r t)) of every grain. What a drag makes of the
+growth is in `complex_pairs.damped_growth`.
 
 | C          | name                   | shape, type            |
 | ---------- | ---------------------- | ---------------------- |
@@ -23,6 +23,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from grainmodes.complex_pairs.damped_growth import DampedPair
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.mass_weighted import generalized_mass
@@ -47,11 +48,6 @@ class UnstableState:
         """ω_i, in 1/t_0."""
         return float(np.sqrt(complex(self.eigenvalue)).imag)
 
-    def damped_growth_rate(self, drag: float) -> float:
-        """Growth rate under a drag η, both in 1/t_0; negative where the mode decays."""
-        root = np.sqrt(0.25 * drag**2 - complex(self.eigenvalue))
-        return float(abs(root.real) - 0.5 * drag)
-
     def initial_velocity(self, size: float) -> np.ndarray:
         """Velocities of (x, y, ℓ) along ü^m with root mean square |ṙ_i| = `size`: C (28).
 
@@ -63,6 +59,21 @@ class UnstableState:
         root_mean_square = np.sqrt((along[:, :2] ** 2).sum(axis=1).mean())
         velocity: np.ndarray = along * (size / root_mean_square)
         return velocity
+
+    def random_velocity(self, size: float, seed: int) -> np.ndarray:
+        """Random velocities of (x, y, ℓ) without net momentum, (N, 3), with root mean square
+        |ṙ_i| = `size`, in d/t_0 as `size`."""
+        velocity = np.random.default_rng(seed).standard_normal((self.packing.n, 3))
+        mass = self.packing.mass
+        velocity[:, :2] -= mass @ velocity[:, :2] / mass.sum()
+        return velocity * (size / np.sqrt((velocity[:, :2] ** 2).sum(axis=1).mean()))
+
+    def under_drag(self, interaction: Interaction, damped_motion: str) -> DampedPair:
+        """The pair under a drag on "translations" or on "all" motion: C, Sec. VII."""
+        mass = generalized_mass(self.packing.mass)
+        damped = mass * (np.array([1.0, 1.0, 0.0]) if damped_motion == "translations" else 1.0)
+        matrix = jacobian(self.packing, interaction)
+        return DampedPair(matrix, mass.ravel(), damped.ravel(), self.eigenvalue, self.mode.ravel())
 
     def residual(self, interaction: Interaction) -> float:
         """max|M⁻¹J u − λ u| over |λ| max|u|."""

@@ -7,20 +7,14 @@ import numpy as np
 import pytest
 
 from grainmodes.packing.state import nonaffine_motion
-from grainmodes.parameters.release import GROWTH_RANGE, Release
-from grainmodes.protocols.pair_tracking.detection import DenseDetector, PairState, detect_pairs
-from grainmodes.protocols.pair_tracking.linear_range import fastest_candidate, linear_ranges
+from grainmodes.parameters.release import Release
+from grainmodes.protocols.pair_tracking.linear_range import linear_ranges
 from grainmodes.protocols.release.outcome import release_outcome
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
-from released import released, state
+from released import narrowed, released, sheared_equilibrium, state
 
 TURN = np.exp(-2j * np.pi * np.arange(60) / 60)
 """Phases of a turn."""
-
-
-def sheared_equilibrium() -> EquilibriumState:
-    start, _, interaction = state()
-    return EquilibriumState.from_packing(start.packing, interaction)
 
 
 def motions(equilibrium: EquilibriumState) -> np.ndarray:
@@ -106,52 +100,12 @@ def test_a_loose_grain_does_not_limit_the_linear_range():
     assert linear_ranges(replace(shrunk, backbone_mask=held), motions(equilibrium)).min() > 1e-12
 
 
-def narrowed(equilibrium: EquilibriumState) -> EquilibriumState:
-    """The weakest contact left with an overlap of 1e-9 d by a grain that is made smaller."""
-    weakest = np.argmin(equilibrium.packing.contacts.overlap)
-    diameter = equilibrium.packing.diameter.copy()
-    diameter[equilibrium.packing.contacts.i[weakest]] -= 2.0 * (
-        equilibrium.packing.contacts.overlap[weakest] - 1e-9
-    )
-    return EquilibriumState.from_packing(
-        replace(equilibrium.packing, diameter=diameter), equilibrium.interaction
-    )
-
-
-def pair_state(equilibrium: EquilibriumState) -> PairState:
-    return detect_pairs(DenseDetector(), equilibrium)
-
-
-def test_a_state_next_to_a_change_of_contacts_is_passed_over():
-    wide, narrow = pair_state(sheared_equilibrium()), pair_state(narrowed(sheared_equilibrium()))
-    assert len(narrow.pairs.value) > 0
-    chosen = fastest_candidate(wide, 0.0)
-    assert chosen.growth == wide.pairs.growth.max() == wide.pairs.growth[chosen.place]
-    assert chosen.growth == pytest.approx(state()[0].growth_rate)
-    assert chosen.linear_range > GROWTH_RANGE[1]
-    assert fastest_candidate(narrow, 0.0) is None
-    assert fastest_candidate(wide, chosen.growth) is None
-
-
-def test_the_candidate_is_the_fastest_pair_with_a_sufficient_range(monkeypatch):
-    start = pair_state(sheared_equilibrium())
-    motions_of_pairs = start.motions(np.arange(len(start.pairs.value)))
-    growth, ranges = start.pairs.growth, linear_ranges(start.equilibrium, motions_of_pairs)
-    fastest = np.argmax(growth)
-    assert ranges[fastest] < ranges.max()
-    monkeypatch.setattr(
-        "grainmodes.protocols.pair_tracking.linear_range.GROWTH_RANGE", (0.0, ranges[fastest])
-    )
-    chosen = fastest_candidate(start, 0.0)
-    assert chosen.growth == growth[ranges > ranges[fastest]].max()
-    assert chosen.linear_range == ranges[chosen.place]
-
-
 def test_a_release_changes_its_contacts_where_linear_theory_says():
     """Within a factor of three of M: it is looked at now and then, and M swings."""
     start, _, _ = state()
     expected = linear_ranges(sheared_equilibrium(), start.mode[:, :, None])[0]
     outcome = release_outcome(
-        released(Release(duration=22.0, min_time=0.0, n_records=2000, spectra=0))
+        released(Release(duration=22.0, min_time=0.0, n_records=2000, spectra=0)),
+        start.growth_rate,
     )
     assert expected / 3.0 < outcome.change.square < 3.0 * expected

@@ -15,7 +15,7 @@ from released import SHORT, released, state
 
 def test_a_rattler_draws_no_spiral():
     run = released()
-    fit = release_outcome(run).displacement
+    fit = release_outcome(run, run.start.growth_rate).displacement
     still = [(step, moved * (np.arange(50) != 7)[:, None]) for step, moved in run.film]
     resting = SimpleNamespace(film=still, choices=run.choices, start=run.start)
     ratios = [fit_spirals(one, fit).axis_ratio for one in (resting, run)]
@@ -38,7 +38,7 @@ def test_the_outcome_of_a_run_is_found_from_its_records():
         MotionRecord(*(t, m, m), *blank[3:])._replace(changed=int(m > 5e-8))
         for t, m in zip(time, square, strict=True)
     ]
-    outcome = release_outcome(SimpleNamespace(start=start, drag=0.0, records=records))
+    outcome = release_outcome(SimpleNamespace(start=start, records=records), 1.1 * rate)
     grown = np.log(1e-7 / 1e-22) / 2
     assert outcome.displacement.rate == pytest.approx(rate, rel=1e-6)
     assert outcome.displacement.depth == pytest.approx(0.2, rel=1e-3)
@@ -53,5 +53,5 @@ def test_the_outcome_of_a_run_is_found_from_its_records():
 
 
 def test_what_does_not_happen_has_no_onset():
-    outcome = release_outcome(released(SHORT, drag=10.0 * state()[0].growth_rate))
+    outcome = release_outcome(released(SHORT, drag=10.0 * state()[0].growth_rate), -1e-3)
     assert np.isnan([*outcome.displacement, *outcome.end, *outcome.change, *outcome.second]).all()

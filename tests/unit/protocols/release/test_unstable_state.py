@@ -36,14 +36,6 @@ def test_the_initial_velocity_is_along_the_paper_s_vector_and_moves_no_centre():
     assert np.abs(start.packing.mass @ velocity[:, :2]).max() < 1e-15
 
 
-@pytest.mark.parametrize("times", [0.0, 0.5, 2.0, 10.0, 1e3, 1e4])
-def test_a_drag_slows_the_growth_as_the_quadratic_says(times):
-    start, _, _ = state()
-    drag = times * start.growth_rate
-    roots = np.roots([1.0, drag, start.eigenvalue])
-    assert start.damped_growth_rate(drag) == pytest.approx(roots.real.max(), rel=1e-9, abs=1e-12)
-
-
 def test_a_released_state_moves_as_linear_theory_says():
     start, _, interaction = state()
     steps, dt, size = 4000, 0.01, 1e-9
