@@ -198,9 +198,21 @@ FIGURES = {
     "release_damping": Figure(
         "paper_c", "Release under damping (paper C, Fig. 11)", ("release", "friction"), "release"
     ),
+    "release_times": Figure(
+        "paper_c",
+        "When the growth of released states ends (paper C, Sec. VI B)",
+        ("release", "friction"),
+        "release",
+    ),
+    "release_pair": Figure(
+        "paper_c",
+        "The pair of a released state along the shear, and its growth (paper C, Fig. 12)",
+        ("release", "friction"),
+        "release",
+    ),
     "law_comparison": Figure(
         "paper_c",
-        "Complex pairs under several tangential laws (paper C, Fig. 12(a))",
+        "Complex pairs under several tangential laws (paper C, Sec. VIII)",
         ("law_comparison",),
     ),
 }

@@ -117,6 +117,7 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
         ratio = (release["growth"] / release["rate"]).clip(*RATIO_RANGE)
         lower.plot(release["rate"], ratio, marker, color=colour, **appearance.OPEN_SYMBOLS)
     upper.set(xlabel=r"$\gamma$", ylabel="complex pairs")
+    upper.locator_params(axis="x", nbins=5)
     upper.legend(fontsize=6)
     lower.set(xscale="log", xlabel=r"$\omega_i t_0$")
     lower.set(ylabel=r"growth / $\omega_i$", ylim=RATIO_RANGE)

@@ -20,9 +20,9 @@ from grainmodes.figures.shared.release_rows import (
     END_TIME,
     RUN,
     SECOND_TIME,
-    ReleasedSample,
+    ReleasedState,
     mark_end_and_second,
-    one_released_sample,
+    one_released_state,
     release_caption,
 )
 from grainmodes.figures.shared.sample_files import joined
@@ -48,28 +48,28 @@ def table(releases: list[Block], options: Options) -> pd.DataFrame:
     Raises:
         ValueError: no sample has the requested n, phi, kt or seed.
     """
-    return joined((_rows(sample) for sample in one_released_sample(releases, options)), COLUMNS)
+    return joined((_rows(state) for state in one_released_state(releases, options)), COLUMNS)
 
 
-def _rows(sample: ReleasedSample) -> pd.DataFrame:
+def _rows(state: ReleasedState) -> pd.DataFrame:
     quantities = {"time": "time", "contact_number": "contact_number", "sliding": "sliding"}
-    records = sample.records(quantities).assign(kind="record")
-    before, after = (sample.values(f"contacts_{side}").astype(int) for side in ("before", "after"))
+    records = state.records(quantities).assign(kind="record")
+    before, after = (state.values(f"contacts_{side}").astype(int) for side in ("before", "after"))
     largest = max(before.max(), after.max())
-    grains = sample.identity() | {
+    grains = state.identity() | {
         "kind": "grains",
         "z": np.arange(largest + 1),
         "before": np.bincount(before, minlength=largest + 1) / len(before),
         "after": np.bincount(after, minlength=largest + 1) / len(after),
     }
     rows = pd.concat([records, pd.DataFrame(grains)], ignore_index=True)
-    return rows.assign(end_time=sample.first("end_time"), second_time=sample.first("second_time"))
+    return rows.assign(end_time=state.first("end_time"), second_time=state.first("second_time"))
 
 
 def caption(table: pd.DataFrame) -> Caption:
     """What is drawn, and what to look at."""
     return Caption(
-        "Contacts along a release of one sample: (a) mean number of contacts of a grain, (b) "
+        "Contacts along a release of one state: (a) mean number of contacts of a grain, (b) "
         "number of contacts at Coulomb's threshold, against time; dashed line: end of the growth, "
         "dotted: second instability. (c) Fraction P(z) of the grains with z contacts, squares "
         "before and circles after the release.",
@@ -79,12 +79,12 @@ def caption(table: pd.DataFrame) -> Caption:
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
     """Draw the three panels."""
-    figure.set_size_inches(7.0, 2.7)
+    figure.set_size_inches(7.0, 3.0)
     number, sliding, fractions = figure.subplots(1, 3)
     records, grains = (table[table["kind"] == kind] for kind in ("record", "grains"))
     _draw_records(number, 0, records, "contact_number", "contacts of a grain", "contacts")
     _draw_records(sliding, 1, records, "sliding", "sliding contacts", "at the threshold")
-    number.legend(loc="lower left")
+    figure.legend(*number.get_legend_handles_labels(), loc="outside lower left", ncols=2)
     _draw_fractions(fractions, grains)
     figure.suptitle(release_caption(table))
 
@@ -92,9 +92,10 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
 def _draw_records(
     axes: Axes, index: int, records: pd.DataFrame, column: str, label: str, title: str
 ) -> None:
+    records = records[records["time"] > 0.0]
     axes.plot(records["time"], records[column], ".", color="k", ms=1.2)
     mark_end_and_second(axes, records, in_legend=index == 0)
-    axes.set(xlabel="$t / t_0$", ylabel=label)
+    axes.set(xscale="log", xlabel="$t / t_0$", ylabel=label)
     labels.name_panel(axes, index, title)
 
 

@@ -1,8 +1,9 @@
 """What becomes of released states over all times: C, Fig. 7.
 
 (a) mean square displacement M, C (29), (b) pressure P and (c) shear stress σ_xy against time, a
-colour per sample, named by its ω_i. (d) |P − P(0)| / P(0) of the first sample against ω_i t while M
-grows: dots with the line e^(ω_i t) through their largest value in the linear range.
+colour per state, named by its ω_i. (d) |P − P(0)| / P(0) of the state whose ω_i is nearest to that
+of C's inset against ω_i t while M grows: dots with the line e^(ω_i t) through their largest value
+in the linear range.
 """
 
 from __future__ import annotations
@@ -18,9 +19,10 @@ from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.columns import RIGIDITY_UNIT
 from grainmodes.figures.shared.release_rows import (
     END_TIME,
+    PAPER_RATE,
     RUN,
     growing_records,
-    released_samples,
+    released_states,
 )
 from grainmodes.figures.shared.sample_files import joined
 from grainmodes.figures.shared.selection import MAX_CURVES, Options
@@ -44,24 +46,24 @@ COLUMNS = {
 
 
 def table(releases: list[Block], options: Options) -> pd.DataFrame:
-    """The records of the runs without damping, sample by sample, with the columns `COLUMNS`.
+    """The records of the runs without damping, state by state, with the columns `COLUMNS`.
 
     Raises:
         ValueError: no sample has the requested n, phi or kt.
     """
-    shown = released_samples(releases, options)[:MAX_CURVES]
-    parts = (
-        sample.records(QUANTITIES).assign(end_time=sample.first("end_time")) for sample in shown
-    )
+    found = released_states(releases, options)
+    places = np.linspace(0, len(found) - 1, min(len(found), MAX_CURVES))
+    shown = [found[round(place)] for place in places]
+    parts = (state.records(QUANTITIES).assign(end_time=state.first("end_time")) for state in shown)
     return joined(parts, COLUMNS)
 
 
 def caption(table: pd.DataFrame) -> Caption:
     """What is drawn, and what to look at."""
     return Caption(
-        "Released states until long after their growth, a colour per sample, named by its ω_i: "
+        "Released states until long after their growth, a colour per state, named by its ω_i: "
         "(a) mean square displacement M, (b) pressure, (c) shear stress σ_xy against time. (d) |P "
-        "− P(0)|/P(0) of one sample while it grows, with e^(ω_i t).",
+        "− P(0)|/P(0) of one state while it grows, with e^(ω_i t).",
         "growth, then a plateau, then a second instability after which pressure has risen and "
         "shear stress has fallen; a small ω_i delays all of it.",
     )
@@ -69,7 +71,7 @@ def caption(table: pd.DataFrame) -> Caption:
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
     """Draw the four panels."""
-    figure.set_size_inches(7.0, 5.2)
+    figure.set_size_inches(7.0, 5.6)
     panels = figure.subplots(2, 2).ravel()
     pressure, stress = (labels.modulus_label(symbol, table) for symbol in ("$P$", r"$\sigma_{xy}$"))
     shown = (
@@ -86,9 +88,11 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
         axes.set(xscale="log", xlabel="$t / t_0$", ylabel=label)
         labels.name_panel(axes, index, title)
     panels[0].set_yscale("log")
-    panels[0].legend(loc="upper left")
+    entries = panels[0].get_legend_handles_labels()
+    figure.legend(*entries, loc="outside lower center", ncols=4)
     panels[2].axhline(0.0, color="0.6", lw=0.6)
-    _draw_growth(panels[3], table[table["seed"] == table["seed"].iloc[0]])
+    nearest = (np.log(table["rate"] / PAPER_RATE)).abs().idxmin()
+    _draw_growth(panels[3], table[table["rate"] == table["rate"][nearest]])
     samples = labels.count_samples([table["seed"].nunique()])
     figure.suptitle(", ".join([*labels.constants(table), samples]))
 
@@ -107,5 +111,6 @@ def _draw_growth(axes: Axes, records: pd.DataFrame) -> None:
         ylabel="$|P - P(0)| / P(0)$",
         ylim=(change[change > 0.0].min(), 10.0 * change.max()),
     )
-    labels.name_panel(axes, 3, f"pressure while it grows, seed {records['seed'].iloc[0]}")
+    name = rf"$\omega_i = {labels.power(records['rate'].iloc[0], 2)}$"
+    labels.name_panel(axes, 3, f"pressure while it grows, {name}")
     axes.legend(loc="upper left")

@@ -17,8 +17,8 @@ from grainmodes.figures.shared.captions import Caption
 from grainmodes.figures.shared.columns import ENERGY_UNIT, RIGIDITY_UNIT
 from grainmodes.figures.shared.release_rows import (
     RUN,
-    ReleasedSample,
-    one_released_sample,
+    ReleasedState,
+    one_released_state,
     release_caption,
 )
 from grainmodes.figures.shared.sample_files import joined
@@ -51,20 +51,20 @@ def table(releases: list[Block], options: Options) -> pd.DataFrame:
     Raises:
         ValueError: no sample has the requested n, phi, kt or seed.
     """
-    return joined((_rows(sample) for sample in one_released_sample(releases, options)), COLUMNS)
+    return joined((_rows(state) for state in one_released_state(releases, options)), COLUMNS)
 
 
-def _rows(sample: ReleasedSample) -> pd.DataFrame:
-    pressures = {side: sample.values(f"binary_pressure_{side}") for side in STYLES}
+def _rows(state: ReleasedState) -> pd.DataFrame:
+    pressures = {side: state.values(f"binary_pressure_{side}") for side in STYLES}
     pressures = {side: values[np.isfinite(values)] for side, values in pressures.items()}
     largest = max(values.max() for values in pressures.values())
     edges = np.linspace(0.0, largest, BINS + 1)
     parts = [
         part
         for side, values in pressures.items()
-        for part in (_density_of_contacts(values, edges, side), _means_by_contacts(sample, side))
+        for part in (_density_of_contacts(values, edges, side), _means_by_contacts(state, side))
     ]
-    return pd.concat(parts, ignore_index=True).assign(**sample.identity())
+    return pd.concat(parts, ignore_index=True).assign(**state.identity())
 
 
 def _density_of_contacts(values: np.ndarray, edges: np.ndarray, side: str) -> pd.DataFrame:
@@ -80,8 +80,8 @@ def _density_of_contacts(values: np.ndarray, edges: np.ndarray, side: str) -> pd
     )
 
 
-def _means_by_contacts(sample: ReleasedSample, side: str) -> pd.DataFrame:
-    z, pressure = sample.values(f"contacts_{side}"), sample.values(f"grain_pressure_{side}")
+def _means_by_contacts(state: ReleasedState, side: str) -> pd.DataFrame:
+    z, pressure = state.values(f"contacts_{side}"), state.values(f"grain_pressure_{side}")
     groups = pd.DataFrame({"z": z, "pressure": pressure}).groupby("z")["pressure"]
     return pd.DataFrame(
         {
@@ -97,7 +97,7 @@ def _means_by_contacts(sample: ReleasedSample, side: str) -> pd.DataFrame:
 def caption(table: pd.DataFrame) -> Caption:
     """What is drawn, and what to look at."""
     return Caption(
-        "Pressures before (squares) and after (circles) a release of one sample: (a) probability "
+        "Pressures before (squares) and after (circles) a release of one state: (a) probability "
         "density of P_ij = r·f of the contacts, (b) mean pressure P_i of the grains with z "
         "contacts; bars: standard errors over the grains.",
         "the longer tail of P_ij after the release, and P_i, which has risen at every z.",

@@ -28,8 +28,8 @@ from grainmodes.figures.shared.grain_rows import GRAINS
 from grainmodes.figures.shared.map_scale import one_digit
 from grainmodes.figures.shared.release_rows import (
     RUN,
-    ReleasedSample,
-    one_released_sample,
+    ReleasedState,
+    one_released_state,
     release_caption,
 )
 from grainmodes.figures.shared.sample_files import joined
@@ -62,25 +62,26 @@ def table(releases: list[Block], options: Options) -> pd.DataFrame:
     Raises:
         ValueError: no sample has the requested n, phi, kt or seed.
     """
-    found = one_released_sample(releases, options)
-    shown = [sample for sample in found if len(sample.values("film"))]
-    return joined((_rows(sample) for sample in shown), COLUMNS)
+    found = one_released_state(releases, options)
+    shown = [state for state in found if np.isfinite(state.values("frame_time")).any()]
+    return joined((_rows(state) for state in shown), COLUMNS)
 
 
-def _rows(sample: ReleasedSample) -> pd.DataFrame:
-    film = sample.values("film")[:, :, :2]
+def _rows(state: ReleasedState) -> pd.DataFrame:
+    time = state.values("frame_time")
+    film = state.values("film")[np.isfinite(time), :, :2]
     frames, n = film.shape[:2]
-    start = {name: sample.block.variables[name][sample.row] for name in START_VARIABLES}
+    start = {name: state.values(f"start_{name}") for name in START_VARIABLES}
     longest = np.quantile(np.hypot(*film.T).max(axis=1), 0.95)
     return pd.DataFrame(
         {
-            **sample.identity(),
+            **state.identity(),
             **{name: start[name] for name in ("box_length", "strain")},
             "grain": np.tile(np.arange(n), frames),
             "diameter": np.tile(start["diameter"], frames),
             "x": np.tile(start["position"][:, 0], frames),
             "y": np.tile(start["position"][:, 1], frames),
-            "time": np.repeat(sample.values("frame_time"), n),
+            "time": np.repeat(time[np.isfinite(time)], n),
             "dx": film[:, :, 0].ravel(),
             "dy": film[:, :, 1].ravel(),
             "factor": one_digit(DRAWN_LENGTH / longest),
@@ -91,7 +92,7 @@ def _rows(sample: ReleasedSample) -> pd.DataFrame:
 def caption(table: pd.DataFrame) -> Caption:
     """What is drawn, and what to look at."""
     return Caption(
-        "Trajectories of the grains of one sample whose complex pair is released, while its "
+        "Trajectories of the grains of one state whose complex pair is released, while its "
         "motion grows: large, all grains in their box; beside it, the three that enclose the "
         "largest areas. Displacements are drawn larger than they are by the factor above the "
         "figure; time runs from light to dark.",

@@ -1,4 +1,4 @@
-"""The sample of the figures of a release, and its rows, from the files of `grainmodes release`."""
+"""The released states of the figures, and their rows, from the files of `grainmodes release`."""
 
 from __future__ import annotations
 
@@ -16,6 +16,9 @@ from grainmodes.figures.shared.selection import Options, smallest_or
 
 PAPER_N = 500
 
+PAPER_RATE = 2.28e-5
+"""ω_i, in 1/t_0, of the state that C shows in its Figs. 7 (b), 8 and 11."""
+
 RUN = {
     **POINT,
     **LAW,
@@ -24,7 +27,7 @@ RUN = {
     "frequency": ("1/t_0", "omega_r of the pair"),
     "damping": ("1/t_0", "eta_0 of the run"),
 }
-"""Columns that say which run of which sample a row is about."""
+"""Columns that say which run of which state a row is about."""
 
 END_TIME = {"end_time": ("t_0", "time at which M leaves its fit")}
 SECOND_TIME = {"second_time": ("t_0", "time at which the second instability begins")}
@@ -33,30 +36,41 @@ SHOWN_GROWTH = 1.3
 """Duration for which a growth is shown, in units of its end."""
 
 
-class ReleasedSample(NamedTuple):
-    """One released sample: a row of a block."""
+class ReleasedState(NamedTuple):
+    """One released state: a place in a row of a block."""
 
     block: Block
     row: int
+    place: int
 
     def values(self, name: str) -> np.ndarray:
         """The values of the variable `release_name`; empty where the file lacks the variable."""
         array = self.block.variables.get(f"release_{name}")
-        return np.zeros(0) if array is None else array[self.row]
+        return np.zeros(0) if array is None else array[self.row, self.place]
 
     def first(self, name: str) -> float:
         """The value of a variable for the run without damping, which is the first one."""
-        return self.values(name)[0]
+        return float(self.values(name)[0])
 
     @property
     def seed(self) -> int:
         """Seed of the sample."""
         return int(self.block.variables["seed"][self.row])
 
+    @property
+    def rate(self) -> float:
+        """ω_i of the pair, in 1/t_0."""
+        return float(self.values("rate_linear"))
+
+    @property
+    def damped_motion(self) -> str:
+        """What the dampings of the runs damp: "translations" or "all" motion."""
+        return str(self.block.mapping("config")["release"]["damped_motion"])
+
     def identity(self, run: int = 0) -> dict[str, object]:
         """The values of the columns `RUN` for one of its runs."""
         identity = point_of(self.block) | law_values(law_of(self.block)) | {"seed": self.seed}
-        pair = {name: float(self.values(f"{name}_linear")) for name in ("rate", "frequency")}
+        pair = {"rate": self.rate, "frequency": float(self.values("frequency_linear"))}
         return identity | pair | {"damping": float(self.values("damping")[run])}
 
     def records(self, names: dict[str, str], run: int = 0) -> pd.DataFrame:
@@ -70,33 +84,36 @@ class ReleasedSample(NamedTuple):
         return pd.DataFrame(self.identity(run) | series)
 
 
-def released_samples(blocks: list[Block], options: Options) -> list[ReleasedSample]:
-    """The released samples of the requested N, φ and k_T, by seed; without a request those of the
-    N nearest to C's, and of the largest φ and k_T.
+def released_states(blocks: list[Block], options: Options) -> list[ReleasedState]:
+    """The released states of the requested N, φ and k_T, ω_i descending; without a request those of
+    the N nearest to C's, and of the largest φ and k_T.
 
     Raises:
         ValueError: no sample has the requested n, phi or kt.
     """
     released = [block for block in blocks if np.any(block.variables.get("release_found", 0))]
-    samples = [
-        ReleasedSample(block, row)
+    states = [
+        ReleasedState(block, row, place)
         for block in at_kt(at_point(released, options, PAPER_N), options)
-        for row in np.flatnonzero(block.variables["release_found"])
+        for row, place in np.argwhere(block.variables["release_found"]).tolist()
     ]
-    return sorted(samples, key=lambda sample: sample.seed)
+    return sorted(states, key=lambda state: -state.rate)
 
 
-def one_released_sample(blocks: list[Block], options: Options) -> list[ReleasedSample]:
-    """The sample of the requested seed, else the first; an empty list if none was released.
+def one_released_state(blocks: list[Block], options: Options) -> list[ReleasedState]:
+    """The state whose ω_i is nearest to that of C, of all samples or of the one that is requested;
+    an empty list if none was released.
 
     Raises:
         ValueError: no sample has the requested n, phi, kt or seed.
     """
-    samples = released_samples(blocks, options)
-    if not samples:
+    states = released_states(blocks, options)
+    if not states:
         return []
-    seed = smallest_or(options.seed, np.array([sample.seed for sample in samples]), "seed")
-    return [sample for sample in samples if sample.seed == seed]
+    if options.seed is not None:
+        seed = smallest_or(options.seed, np.unique([state.seed for state in states]), "seed")
+        states = [state for state in states if state.seed == seed]
+    return [min(states, key=lambda state: abs(np.log(state.rate / PAPER_RATE)))]
 
 
 def growing_records(records: pd.DataFrame) -> pd.DataFrame:
