@@ -36,7 +36,7 @@ def complex_pairs_block(
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, interaction)
         if not jammed:
-            row: dict[str, object] = {"pair_state_count": 0, "unstable_found": False}
+            row: dict[str, object] = {"pair_state_count": 0, "unstable_found": [False]}
             return row | {"jammed": False, "converged": True}
         tracking = PairTracking.start(packing, interaction, shear, choices)
         try:

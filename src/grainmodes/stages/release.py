@@ -1,6 +1,7 @@
 """The stage `release`: the dynamics from the unstable states of every sample, with every damping.
 
-A sample without a state to release is a row that says so.
+A sample without a state to release is a row that says so; a state whose release fails is one that
+says why, and the other states of the sample go on.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from grainmodes.response.stability import REAL_TOLERANCE
 from grainmodes.stages.long_runs import CheckpointStore, run_to_end
 from grainmodes.stages.packing_rows import history_in_row
 from grainmodes.stages.release_rows import ReleasedRuns, state_row
-from grainmodes.stages.rows import response_block, stacked
+from grainmodes.stages.rows import SAMPLE_ERRORS, loss, response_block, stacked
 from grainmodes.stages.samples import seed_of
 
 MAX_RESIDUAL = 1e-6
@@ -45,12 +46,18 @@ def release_block(
     def sample(number: int) -> dict[str, object]:
         seed, states = seed_of(pairs, number), pairs.variables["unstable_found"][number]
         rows: list[dict[str, object]] = [{"release_found": False} for _ in states]
+        errors: dict[str, Exception | None] = {}
         for place in np.flatnonzero(states).tolist():
-            start = unstable_state(pairs, number, place)
-            check_pair(start, interaction)
-            runs = _runs(start, interaction, choices, seed, checkpoints, f"seed-{seed}-{place}")
-            rows[place] = state_row(runs) | _along_the_shear(pairs, number, place)
-        return dict(stacked(rows)) | {"converged": True}
+            name = f"seed-{seed}-{place}"
+            try:
+                start = checked_state(pairs, number, place, interaction)
+                runs = _runs(start, interaction, choices, seed, checkpoints, name)
+            except SAMPLE_ERRORS as error:
+                errors[f"state {place}"] = error
+            else:
+                rows[place] = state_row(runs) | _along_the_shear(pairs, number, place)
+        converged = not errors or len(errors) < np.count_nonzero(states)
+        return dict(stacked(rows)) | {"converged": converged} | loss(errors)
 
     config = {"law": asdict(law), "release": asdict(choices)}
     return response_block(pairs, "release", config, law, sample)
@@ -109,13 +116,15 @@ def _along_the_shear(block: Block, number: int, place: int) -> dict[str, object]
     return row | {"release_start_pairs": block.variables["unstable_pair_count"][number, place]}
 
 
-def check_pair(start: UnstableState, interaction: Interaction) -> None:
-    """Check that the pair is one of the state.
+def checked_state(block: Block, number: int, place: int, interaction: Interaction) -> UnstableState:
+    """The unstable state at a place of a row, its pair checked.
 
     Raises:
+        PackingError: a stored value is NaN or infinite.
         ArithmeticError: the imaginary part of the eigenvalue is 0 to rounding, or the mode is not
             an eigenvector of M⁻¹J.
     """
+    start = unstable_state(block, number, place)
     if start.eigenvalue.imag <= REAL_TOLERANCE:
         raise ArithmeticError(
             f"eigenvalue of the pair: expected Im above {REAL_TOLERANCE:.1e}, "
@@ -126,3 +135,4 @@ def check_pair(start: UnstableState, interaction: Interaction) -> None:
         raise ArithmeticError(
             f"mode of the pair: expected a residual below {MAX_RESIDUAL}, got {residual:.1e}"
         )
+    return start

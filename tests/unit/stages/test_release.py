@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -104,6 +105,19 @@ def test_a_pair_that_does_not_belong_to_the_state_is_a_failed_row(name, value, s
     failed = release_block(pairs, state()[1], CHOICES)
     assert failed.variables["converged"].tolist() == [0, 1]
     assert sentence in failed.attributes["failures"]["release"]["0"]
+
+
+def test_a_state_that_fails_leaves_the_others_of_its_sample():
+    pairs = complex_pairs_block()
+    for name, array in pairs.variables.items():
+        if name.startswith("unstable_"):
+            array[0, 0] = array[0, 1]
+    pairs.variables["unstable_eigenvalue_imag"][0, 0] = 1e-7
+    short = replace(CHOICES, duration=0.5, dampings=(), spectra=0)
+    found = release_block(pairs, state()[1], short)
+    assert found.variables["release_found"].tolist() == [[0, 1], [0, 0]]
+    assert found.variables["converged"].tolist() == [1, 1]
+    assert found.attributes["failures"]["release"]["0"].startswith("state 0: ArithmeticError: mode")
 
 
 def test_a_point_keeps_the_numbers_of_runs_and_no_records(block):

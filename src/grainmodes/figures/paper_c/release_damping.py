@@ -1,7 +1,7 @@
 """The same unstable state released under dampings η_0 around its growth rate: C, Fig. 11.
 
-(a) mean square displacement M, C (29), and (b) |P − P(0)| / P(0) against ω_i t, a colour per η_0: on
-the scale of P itself all curves lie on each other until the end. (c) growth rates fitted to M
+(a) mean square displacement M, C (29), and (b) |P − P(0)| / P(0) against ω_i t, a colour per η_0:
+on the scale of P itself all curves lie on each other until the end. (c) growth rates fitted to M
 (circles; crosses where M does not grow) and linear theory, line: the quadratic eigenproblem with
 the drag of the runs, dashed: ω_i − η_0/2, a drag on all motion.
 """
