@@ -41,6 +41,8 @@ def _sample(seed: int) -> dict[str, object]:
     return {
         "pair_state_count": 5,
         "pair_count": np.arange(5),
+        "pair_strain": 1e-3 * np.arange(5),
+        "track_count": 4 + seed % 2,
         "exceptional_point_track": [0, 0],
         "exceptional_point_birth": [1, 0],
         "exceptional_point_kind": [1, 1],

@@ -56,8 +56,8 @@ def release_block(
                 errors[f"state {place}"] = error
             else:
                 rows[place] = state_row(runs) | _along_the_shear(pairs, number, place)
-        converged = not errors or len(errors) < np.count_nonzero(states)
-        return dict(stacked(rows)) | {"converged": converged} | loss(errors)
+        lost_all = bool(errors) and len(errors) == np.count_nonzero(states)
+        return {**stacked(rows), "converged": not lost_all, **loss(errors)}
 
     config = {"law": asdict(law), "release": asdict(choices)}
     return response_block(pairs, "release", config, law, sample)

@@ -6,7 +6,7 @@ import pytest
 import claim_fixtures
 import claim_fixtures_pairs
 from grainmodes.claims import CLAIMS, check, paper_c
-from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_TESTED
+from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_RESOLVED, NOT_TESTED
 
 NAMES = ("C1", "C2", "C3")
 
@@ -16,7 +16,8 @@ def pairs_from_the_start(ensemble):
 
 
 def no_pairs(ensemble):
-    ensemble["pair_count"] = 0.0 * ensemble["pair_count"]
+    for name in ("pair_count", "track_count"):
+        ensemble[name] = 0.0 * ensemble[name]
 
 
 def linear(ensemble):
@@ -33,7 +34,6 @@ def not_parallel(ensemble):
 
 MUTANTS = [
     ("C1", pairs_from_the_start),
-    ("C1", no_pairs),
     ("C2", linear),
     ("C2", linear_as_a_pair),
     ("C3", not_parallel),
@@ -57,6 +57,16 @@ def test_one_changed_number_contradicts_its_claim_alone(name, mutate):
     found = verdicts(ensemble)
     fallen = {n: found[n].verdict for n in NAMES if found[n].verdict != HOLDS}
     assert fallen == {name: CONTRADICTED}
+
+
+def test_samples_without_births_show_nothing_and_one_with_them_is_enough():
+    ensemble = claim_fixtures_pairs.ensemble()
+    no_pairs(ensemble)
+    assert verdicts(ensemble)["C1"].verdict == NOT_RESOLVED
+    ensemble["track_count"][..., 2] = 1.0
+    found = verdicts(ensemble)["C1"]
+    assert found.verdict == HOLDS
+    assert "births per unit of strain" in found.explanation
 
 
 def test_the_product_is_taken_to_the_point_itself():

@@ -20,6 +20,7 @@ from grainmodes.claims.part import MIN_SAMPLES, Part
 from grainmodes.claims.samples import label, samples_by_size
 from grainmodes.ensemble.exceptional import PairSample, pair_samples
 from grainmodes.statistics.estimates import Estimate, mean
+from grainmodes.statistics.shares import share
 
 EXPONENT, EXPONENT_TOLERANCE = 0.5, 0.01
 """The exponent of C (21), and the largest difference of a measured one to it."""
@@ -27,31 +28,38 @@ EXPONENT, EXPONENT_TOLERANCE = 0.5, 0.01
 MIN_PRODUCT = 0.999
 """Scalar product above which two eigenvectors count as parallel; C's figures resolve less."""
 
-MIN_SHARE = 0.5
-"""Share of the samples in which a pair must be born."""
-
 
 @claim("C1", unit="1")
 def born_under_shear(ensemble) -> Outcome:
     """Complex pairs are born under quasistatic shear from states that have none (Fig. 1).
 
-    These are the number of pairs in the first state, and the share of the samples with a pair in
-    any later state.
+    These are the number of pairs in the first state, and the share of the samples in which pairs
+    are born: one such sample shows that they exist. The note has the births per unit of strain and
+    per grain for every N.
 
     Asked of: every N and point with tracks of complex pairs.
 
-    Criterion: The first state has no pair, and pairs are born in more than one half of the samples.
+    Criterion: The first state has no pair, and pairs are born in some of the samples.
     """
     parts, notes = [], []
-    for samples in samples_by_size(ensemble, "pair_count"):
+    for samples in samples_by_size(ensemble, "pair_count", "track_count", "pair_strain"):
         for point in samples.points("pair_count"):
-            pairs = samples.values("pair_count", *point)
+            pairs, strain = (samples.values(f"pair_{n}", *point) for n in ("count", "strain"))
+            births = samples.values("track_count", *point)
             where = f"N = {samples.n}, {label(*point)}"
-            born = np.where(np.isfinite(pairs[:, 0]), np.nansum(pairs, axis=1) > 0.0, np.nan)
             parts.append(Part(f"first state, {where}", mean(pairs[:, 0]), -0.5, 0.5))
-            parts.append(Part(f"share, {where}", mean(born), MIN_SHARE))
-            notes.append(f"At {where} the last state has {mean(_last(pairs))} pairs.")
+            parts.append(Part(f"samples with births, {where}", share(_flags(births)), low=0.0))
+            per_strain = mean(births / np.nanmax(strain, axis=1) / samples.n)
+            notes.append(
+                f"At {where} a sample has {per_strain} births per unit of strain and grain; the "
+                f"last state has {mean(_last(pairs))} pairs."
+            )
     return Outcome({"tracks of complex pairs": parts}, " ".join(notes))
+
+
+def _flags(births: np.ndarray) -> np.ndarray:
+    """Whether a sample has births, (S,) of 1 and 0, NaN where it is not known."""
+    return np.where(np.isfinite(births), births > 0, np.nan)
 
 
 def _last(pairs: np.ndarray) -> np.ndarray:

@@ -74,7 +74,7 @@ def caption(table: pd.DataFrame) -> Caption:
 def draw(figure: Figure, table: pd.DataFrame) -> None:
     """Draw the eigenvalues on the left and the growth on the right."""
     figure.set_size_inches(7.0, 3.6)
-    left, right = figure.subfigures(1, 2)
+    left, right = figure.subfigures(1, 2, squeeze=False)[0]
     real, imaginary = left.subplots(2, 1, sharex=True)
     draw_eigenvalues(real, imaginary, table[table["kind"] == "shear"])
     for axes in (real, imaginary):

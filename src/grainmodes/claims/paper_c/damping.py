@@ -1,0 +1,79 @@
+"""The claim of paper C on damping: C7.
+
+symbol       name                                                       paper C
+η_0          release_damping, one run for each; the first is 0          Sec. VII
+Re s         release_rate_damped: the quadratic eigenproblem            Sec. VII
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainmodes.claims.claim import Outcome, claim
+from grainmodes.claims.paper_c.released import Released, released
+from grainmodes.claims.part import Part
+from grainmodes.statistics.estimates import mean
+
+MAX_DIFFERENCE = 0.02
+"""Difference of a fitted rate to the quadratic eigenproblem, in units of ω_i, that is none."""
+
+WEAK, STRONG = 0.5, 2.0
+"""η_0 over ω_i below which a damping is weak, and over the threshold above which it is strong."""
+
+MIN_LOG_RATIO = -1.0
+"""log10 of the largest M over that at the end of the growth without damping, above which the growth
+has not been suppressed."""
+
+SUPPRESSED = -15.0
+"""log10 of M, in d², below which nothing has grown."""
+
+
+@claim("C7", unit="1")
+def damping(ensemble) -> Outcome:
+    """A damping η_0 above ω_i suppresses the growth, and a smaller one does not (Fig. 11).
+
+    C says η_0 ≳ ω_i, an order of magnitude: linear theory, the quadratic eigenproblem, has the
+    growth end at a threshold of a few ω_i, which the note states. For every decade of ω_i and every
+    run with damping these are: where M grows, the difference of the rate fitted to M to linear
+    theory, in ω_i; for η_0 < 0.5 ω_i, log10 of the largest M over M at the end of the growth
+    without damping; above twice the threshold, log10 of the largest M.
+
+    Asked of: every listed growth rate with four released states.
+
+    Criterion: Rates are within ±0.02 ω_i of linear theory, weak damping leaves the growth within a
+    decade of M, and strong damping keeps log10 M below -15.
+    """
+    parts, notes = [], []
+    names = ("damping", "rate_damped", "threshold", "largest_square", "end_square", "second_time")
+    for states in released(ensemble, *names, "displacement_rate"):
+        threshold = mean(states.values["threshold"] / states.rate)
+        notes.append(f"The growth ends at η_0 = {threshold} ω_i at {states.where}.")
+        for run in range(1, states.values["damping"].shape[1]):
+            found, note = _run(states, run, threshold.value)
+            parts += found
+            notes.append(note)
+    return Outcome({"released states": parts}, " ".join(notes))
+
+
+def _run(states: Released, run: int, threshold: float) -> tuple[list[Part], str]:
+    """The parts of one damping, and a sentence on it."""
+    values = states.values
+    times = float(np.nanmedian(values["damping"][:, run] / states.rate))
+    where = f"η_0 = {times:.3g} ω_i, {states.where}"
+    fitted, theory = (
+        values[name][:, run] / states.rate for name in ("displacement_rate", "rate_damped")
+    )
+    largest = np.log10(values["largest_square"][:, run])
+    parts = []
+    if np.isfinite(fitted).sum() > 1:
+        difference = mean(fitted - theory)
+        parts.append(Part(f"rate, {where}", difference, -MAX_DIFFERENCE, MAX_DIFFERENCE))
+    if times < WEAK:
+        ratio = mean(largest - np.log10(states.undamped("end_square")))
+        parts.append(Part(f"growth, {where}", ratio, low=MIN_LOG_RATIO))
+    if times > STRONG * threshold:
+        parts.append(Part(f"no growth, {where}", mean(largest), high=SUPPRESSED))
+    reached = np.isfinite(values["second_time"][:, run]).sum()
+    known = np.isfinite(states.rate).sum()
+    note = f"At {where} M grows at {mean(fitted)} ω_i, theory {mean(theory)} ω_i"
+    return parts, f"{note}; {reached} of {known} reach a second instability."
