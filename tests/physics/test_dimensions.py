@@ -63,7 +63,7 @@ def springs(system: RescaledSystem) -> Block:
     """The state to release of `complex_pairs` as a packing with springs."""
     row = {name: array[0] for name, array in block(system, "complex_pairs").variables.items()}
     names = ("fraction", "strain", "contact_i", "contact_j", "spring_state")
-    state = {name: row[f"unstable_{name}"] for name in names}
+    state = {name: row[f"unstable_{name}"][0] for name in names}
     grains = {name: row[name] for name in ("diameter", "mass", "box_length")}
     return system.block(state | grains)
 

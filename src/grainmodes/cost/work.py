@@ -34,7 +34,10 @@ USUAL_STEP = 1e-4
 """The step of strain in which a shear is priced, with the brackets of its events."""
 
 USUAL_RATE = 0.02
-"""ω_i, in 1/t_0, of a state that is released."""
+"""ω_i, in 1/t_0, of the state that is released where a scene lists no rates."""
+
+NOISE_GROWTH_TIMES = 20.0
+"""Time after which M has grown out of noise, in 1/ω_i."""
 
 
 def work(
@@ -56,18 +59,22 @@ def work(
     return {stage: UNITS[entry.work](protocol)}
 
 
-def _runs(choices: Release) -> float:
-    """Millions of steps of all runs of a release."""
-    growth = choices.duration / USUAL_RATE
-    time = max(growth, choices.min_time) + len(choices.dampings) * growth
-    return 1e-6 * time / choices.time_step
+def _runs(choices: Release, rates: tuple[float, ...]) -> float:
+    """Millions of steps of all runs of a release: of every state one without damping, one for every
+    damping, and one from noise, which ends with the growth."""
+    times = [
+        (1 + len(choices.dampings)) * max(choices.duration / rate, choices.min_time)
+        + min(choices.duration, NOISE_GROWTH_TIMES) / rate
+        for rate in rates or (USUAL_RATE,)
+    ]
+    return 1e-6 * sum(times) / choices.time_step
 
 
 UNITS: dict[str, Callable[[Protocol], float]] = {
     "sample": lambda protocol: 1.0,
     "usual steps": lambda protocol: protocol.shear.strain / USUAL_STEP,
     "steps": lambda protocol: protocol.shear.strain / protocol.shear.step,
-    "runs": lambda protocol: _runs(protocol.release),
+    "runs": lambda protocol: _runs(protocol.release, protocol.complex_pairs.release_rates),
 }
 """`work` of an entry of the table of stages → units of its growth law in one sample."""
 

@@ -6,6 +6,7 @@ import pytest
 
 from cost_fixtures import TABLE
 from grainmodes.cost.work import work
+from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.release import Release
 from grainmodes.parameters.spectra import SpectrumChoices
@@ -56,13 +57,15 @@ def test_a_shear_is_priced_by_its_strain():
 
 
 @pytest.mark.parametrize(
-    ("choices", "millions"),
+    ("choices", "rates", "millions"),
     [
-        (Release(), 3.2),
-        (Release(duration=40.0, min_time=0.0, dampings=(1.0,)), 0.04),
-        (Release(time_step=0.05, dampings=()), 6),
+        (Release(), (), 6 * 3.0 + 0.01),
+        (Release(duration=40.0, min_time=0.0, dampings=(1.0,)), (), 2 * 0.02 + 0.01),
+        (Release(time_step=0.05, dampings=()), (), 6.0 + 0.02),
+        (Release(duration=10.0, dampings=()), (2e-2, 2e-5), 3.0 + 5.0 + 0.005 + 5.0),
     ],
 )
-def test_a_release_is_priced_by_the_steps_of_its_runs(choices, millions):
-    found = work("release", "none", 500, 1.0, Protocol(release=choices), TABLE)
+def test_a_release_is_priced_by_the_steps_of_its_runs(choices, rates, millions):
+    protocol = Protocol(release=choices, complex_pairs=PairChoices(release_rates=rates))
+    found = work("release", "none", 500, 1.0, protocol, TABLE)
     assert found == {"release": pytest.approx(millions)}

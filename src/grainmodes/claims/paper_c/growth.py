@@ -81,7 +81,8 @@ def growth(ensemble) -> Outcome:
     last one is judged for slow growth, ω_i < 0.01 ω_r, as in the paper: in a faster one M grows in
     a single turn by so much that the first contact changes earlier; the note has these numbers.
 
-    Asked of: every listed growth rate with four released states; M at the end only where ω_i < 0.01 ω_r.
+    Asked of: every listed growth rate with four released states; M at the end only where
+    ω_i < 0.01 ω_r.
 
     Criterion: Rates and frequencies are within ±1 % of linear theory, the growth ends within ±2/ω_i
     of the first change of contacts, and log10 M at the end of a slow growth lies within -8 ... -6.
