@@ -12,6 +12,7 @@ samples.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +20,9 @@ from grainmodes.claims.claim import Outcome, claim
 from grainmodes.claims.paper_c.released import Released, released
 from grainmodes.claims.part import Part
 from grainmodes.statistics.estimates import mean
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 MIN_LOG_SQUARE = -1.0
 """log10 of M, in d², at the end of a run, below which the grains have not left their places."""
@@ -28,7 +32,7 @@ DIFFUSION_RANGE = (0.75, 1.25)
 
 
 @claim("C6", unit="1")
-def second_instability(ensemble) -> Outcome:
+def second_instability(ensemble: xr.Dataset) -> Outcome:
     """After a plateau a second instability raises P and lowers σ_xy and Z (Figs. 7, 9).
 
     The second instability begins where M exceeds the square of the mean overlap. The numbers are
@@ -43,7 +47,8 @@ def second_instability(ensemble) -> Outcome:
     """
     quantities = ("pressure", "stress_xy", "contact_number")
     names = [f"{side}_{name}" for side in ("start", "after") for name in quantities]
-    parts, notes = [], []
+    parts: list[Part] = []
+    notes: list[str] = []
     for states, reached in _reaching(ensemble, notes, "end_time", *names):
         after = {name: states.undamped(f"after_{name}")[reached] for name in quantities}
         start = {name: states.values[f"start_{name}"][reached] for name in quantities}
@@ -61,7 +66,7 @@ def second_instability(ensemble) -> Outcome:
 
 
 @claim("C13", unit="1")
-def diffusive(ensemble) -> Outcome:
+def diffusive(ensemble: xr.Dataset) -> Outcome:
     """After the second instability the grains diffuse (Sec. VI B (4), Fig. 7).
 
     This is the exponent of M in the time since the second instability, over the last decade of this
@@ -72,7 +77,8 @@ def diffusive(ensemble) -> Outcome:
 
     Criterion: The exponent lies within 0.75 ... 1.25.
     """
-    parts, notes = [], []
+    parts: list[Part] = []
+    notes: list[str] = []
     names = ("diffusion_exponent", "after_mean_square_displacement")
     for states, reached in _reaching(ensemble, notes, *names):
         exponent = mean(states.undamped("diffusion_exponent")[reached])
@@ -84,7 +90,7 @@ def diffusive(ensemble) -> Outcome:
 
 
 @claim("C14", unit="1")
-def longer_tail(ensemble) -> Outcome:
+def longer_tail(ensemble: xr.Dataset) -> Outcome:
     """After the second instability the distribution of P_ij has a longer tail (Fig. 10 (a)).
 
     This is log10 of the ratio of the 99 % quantiles of P_ij = r·f of the contacts, at the end of
@@ -94,7 +100,8 @@ def longer_tail(ensemble) -> Outcome:
 
     Criterion: The quantile rises.
     """
-    parts, notes = [], []
+    parts: list[Part] = []
+    notes: list[str] = []
     for states, reached in _reaching(ensemble, notes, "binary_tail_before", "binary_tail_after"):
         before, after = (states.values[f"binary_tail_{side}"] for side in ("before", "after"))
         ratio = mean(np.log10(after / before)[reached])
@@ -103,7 +110,7 @@ def longer_tail(ensemble) -> Outcome:
 
 
 @claim("C15", unit="1")
-def pressure_at_every_z(ensemble) -> Outcome:
+def pressure_at_every_z(ensemble: xr.Dataset) -> Outcome:
     """After the second instability P_i is higher at every number z of contacts (Fig. 10 (b)).
 
     This is log10 of the ratio of the mean P_i of the grains with z contacts, at the end of the runs
@@ -114,7 +121,8 @@ def pressure_at_every_z(ensemble) -> Outcome:
 
     Criterion: P_i rises at every z.
     """
-    parts, notes = [], []
+    parts: list[Part] = []
+    notes: list[str] = []
     for states, reached in _reaching(
         ensemble, notes, "pressure_by_z_before", "pressure_by_z_after"
     ):
@@ -127,7 +135,7 @@ def pressure_at_every_z(ensemble) -> Outcome:
 
 
 @claim("C16", unit="1")
-def contacts_at_the_threshold(ensemble) -> Outcome:
+def contacts_at_the_threshold(ensemble: xr.Dataset) -> Outcome:
     """Some contacts reach Coulomb's threshold as the growth ends, and more later (Fig. 9, inset).
 
     These are numbers of contacts at the threshold in the runs without damping: the largest one
@@ -138,7 +146,8 @@ def contacts_at_the_threshold(ensemble) -> Outcome:
 
     Criterion: Both numbers are above 0.
     """
-    parts, notes = [], []
+    parts: list[Part] = []
+    notes: list[str] = []
     names = ("growth_sliding", "start_sliding", "after_sliding")
     for states, reached in _reaching(ensemble, notes, *names):
         start = states.values["start_sliding"]
@@ -151,7 +160,9 @@ def contacts_at_the_threshold(ensemble) -> Outcome:
     return _outcome(parts, notes)
 
 
-def _reaching(ensemble, notes: list[str], *names: str) -> Iterator[tuple[Released, np.ndarray]]:
+def _reaching(
+    ensemble: xr.Dataset, notes: list[str], *names: str
+) -> Iterator[tuple[Released, np.ndarray]]:
     """The released states, and which samples (S,) reach the second instability; at least one does.
 
     A sentence that counts them is added to the notes.

@@ -7,12 +7,17 @@ Re s         release_rate_damped: the quadratic eigenproblem            Sec. VII
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from grainmodes.claims.claim import Outcome, claim
 from grainmodes.claims.paper_c.released import Released, released
 from grainmodes.claims.part import Part
 from grainmodes.statistics.estimates import mean
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 MAX_DIFFERENCE = 0.02
 """Difference of a fitted rate to the quadratic eigenproblem, in units of ω_i, that is none."""
@@ -29,7 +34,7 @@ SUPPRESSED = -15.0
 
 
 @claim("C7", unit="1")
-def damping(ensemble) -> Outcome:
+def damping(ensemble: xr.Dataset) -> Outcome:
     """A damping η_0 above ω_i suppresses the growth, and a smaller one does not (Fig. 11).
 
     C says η_0 ≳ ω_i, an order of magnitude: linear theory, the quadratic eigenproblem, has the

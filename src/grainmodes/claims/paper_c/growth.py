@@ -10,12 +10,17 @@ Numbers are taken from each run first; their mean and its error are those over t
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from grainmodes.claims.claim import Outcome, claim
 from grainmodes.claims.paper_c.released import RATE, Released, all_rates, released
 from grainmodes.claims.part import Part
 from grainmodes.statistics.estimates import mean
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 TOLERANCE = 0.01
 """Relative difference to linear theory at which a fitted rate or frequency is equal to it."""
@@ -48,7 +53,7 @@ not yet negligible when M is fitted."""
 
 
 @claim("C4", unit="1")
-def spirals(ensemble) -> Outcome:
+def spirals(ensemble: xr.Dataset) -> Outcome:
     """The grains of a growing complex pair move on spirals along its eigenvector (Fig. 5).
 
     The growth of every coordinate is fitted by e^(ω_i t) Re(z e^(-iω_r t)). The measured numbers
@@ -72,7 +77,7 @@ def spirals(ensemble) -> Outcome:
 
 
 @claim("C5", unit="1")
-def growth(ensemble) -> Outcome:
+def growth(ensemble: xr.Dataset) -> Outcome:
     """M(t) and A(t) grow as e^(2ω_i t), oscillate with ω_r, and stop at M ~ 1e-7 (Figs. 6, 7).
 
     The numbers are taken from the run without damping, for every decade of ω_i: the relative
@@ -114,7 +119,7 @@ def _delay(states: Released, later: str, earlier: str) -> np.ndarray:
 
 
 @claim("C10", unit="1")
-def end_of_growth(ensemble) -> Outcome:
+def end_of_growth(ensemble: xr.Dataset) -> Outcome:
     """The exponential growth ends at a time proportional to 1/ω_i (Sec. VI B (3), Fig. 7).
 
     This is the exponent of t_end in ω_i, fitted by least squares in logarithms to the states of
@@ -149,7 +154,7 @@ def _exponent(rates: np.ndarray, ends: np.ndarray) -> float:
 
 
 @claim("C11", unit="1")
-def death_of_the_pair(ensemble) -> Outcome:
+def death_of_the_pair(ensemble: xr.Dataset) -> Outcome:
     """The released pair dies when its growth ends (Sec. VI B (3), inset of Fig. 8).
 
     The pair is followed along the run without damping by its invariant subspace. The number is the
@@ -171,7 +176,7 @@ def death_of_the_pair(ensemble) -> Outcome:
 
 
 @claim("C12", unit="1")
-def fastest_dominates(ensemble) -> Outcome:
+def fastest_dominates(ensemble: xr.Dataset) -> Outcome:
     """Out of noise the mode with the largest ω_i dominates, whatever other pairs exist (Sec. VI B).
 
     A further run starts with random velocities of all grains instead of the mode of the pair. The

@@ -7,13 +7,16 @@ rate are compared over the samples; a part names them by their median ω_i.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from grainmodes.claims.claim import NotTested
 from grainmodes.claims.part import MIN_SAMPLES
 from grainmodes.claims.samples import best_sampled, label
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 RATE = "rate_linear"
 
@@ -38,7 +41,7 @@ class Released(NamedTuple):
         return self.values[name][:, 0]
 
 
-def released(ensemble, *names: str) -> Iterator[Released]:
+def released(ensemble: xr.Dataset, *names: str) -> Iterator[Released]:
     """The released states of every point and every listed rate with enough samples.
 
     Raises:
@@ -53,7 +56,7 @@ def released(ensemble, *names: str) -> Iterator[Released]:
             yield Released(name, {key: value[:, place] for key, value in values.items()})
 
 
-def all_rates(ensemble, *names: str) -> Iterator[Released]:
+def all_rates(ensemble: xr.Dataset, *names: str) -> Iterator[Released]:
     """The released states of every point with all listed rates together, (S, rates, …).
 
     Raises:
@@ -63,7 +66,7 @@ def all_rates(ensemble, *names: str) -> Iterator[Released]:
         yield Released(where, values)
 
 
-def _points(ensemble, *names: str) -> Iterator[tuple[str, dict[str, np.ndarray]]]:
+def _points(ensemble: xr.Dataset, *names: str) -> Iterator[tuple[str, dict[str, np.ndarray]]]:
     names = (RATE, *names)
     absent = [f"release_{name}" for name in names if f"release_{name}" not in ensemble]
     if absent:
