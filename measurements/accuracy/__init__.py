@@ -10,6 +10,7 @@
 | `time_step`        | Δt of the dynamics                                            |
 | `backtracking`     | Δγ_Th, how closely an event is bracketed                      |
 | `compression_step` | step of φ in a compression, and how far each step is relaxed  |
+| `frictional_compression` | steps of φ, balance, Δt, cut-off and drag where friction acts |
 | `spectrum`         | method for eigenvalues, D(ω) and ψ^R                          |
 | `seeds`            | number of seeds of an ensemble                                |
 | `precision`        | single or double precision                                    |
@@ -24,6 +25,7 @@ NAMES = (
     "time_step",
     "backtracking",
     "compression_step",
+    "frictional_compression",
     "spectrum",
     "seeds",
     "precision",

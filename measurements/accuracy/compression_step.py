@@ -50,7 +50,7 @@ from measurements.accuracy.diagram import (
     in_fresh_process,
     size_suffix,
 )
-from measurements.accuracy.packings import HERTZ
+from measurements.accuracy.packings import HERTZ, shift_of_mean
 
 PHI, INTERACTION = 0.87, Interaction.from_law(ContactLaw(kt=1e-4))
 
@@ -130,13 +130,6 @@ def other_packings(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
     """Fraction of the samples whose P (S,) differs, and its standard error."""
     share = float(np.mean(np.abs(found / exact - 1.0) > PRESSURE_TOLERANCE))
     return share, float(np.sqrt(share * (1.0 - share) / len(found)))
-
-
-def shift_of_mean(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
-    """Bound (m² + e²)^(1/2) of the mean of x − x_ref, and e, both / σ; of (S,) samples."""
-    unit, difference = exact.std(ddof=1), found - exact
-    error = difference.std(ddof=1) / np.sqrt(len(found))
-    return float(np.hypot(difference.mean(), error) / unit), float(error / unit)
 
 
 def shift_of_one(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:

@@ -1,6 +1,8 @@
-"""Packings to try settings on: compressed as in a study, in larger steps of φ."""
+"""Packings to try settings on, and how far two ensembles of them lie apart."""
 
 from __future__ import annotations
+
+import numpy as np
 
 from grainmodes.kernels.laws import Hertz
 from grainmodes.packing.state import Packing
@@ -24,3 +26,10 @@ def compressed(n: int, seed: int, phi: float, protocol: Compression = COARSE) ->
     if not relaxed.converged:
         raise ArithmeticError(f"N = {n}, seed {seed}: max|F| = {relaxed.max_force:.1e}")
     return relaxed.packing
+
+
+def shift_of_mean(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
+    """Bound (m² + e²)^(1/2) of the mean of x − x_ref, and e, both / σ; of (S,) samples."""
+    unit, difference = exact.std(ddof=1), found - exact
+    error = difference.std(ddof=1) / np.sqrt(len(found))
+    return float(np.hypot(difference.mean(), error) / unit), float(error / unit)

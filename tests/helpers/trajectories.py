@@ -16,8 +16,10 @@ import numpy as np
 from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
-from grainmodes.parameters.compression import Compression
+from grainmodes.parameters.compression import Compression, FrictionalCompression
 from grainmodes.parameters.law import ContactLaw
+from grainmodes.protocols.compression import frictional_trajectory
+from grainmodes.protocols.compression.frictional_trajectory import FrictionalPress
 from grainmodes.protocols.compression.trajectory import (
     Trajectory,
     compress_along_grid,
@@ -37,6 +39,9 @@ CASES = [(64, "hertz"), (64, "harmonic"), (256, "hertz"), (1024, "hertz")]
 
 FRICTION = [ContactLaw("hertz", "elastic", 1.0), ContactLaw("hertz", "smoothed_coulomb", 1.0, 0.5)]
 
+COMPRESSED = [FRICTION[1], ContactLaw("harmonic", "elastic", 1.0)]
+"""Laws under which grains are compressed with friction from the beginning."""
+
 
 def grid_state(n: int, normal: str, protocol: Compression) -> Trajectory:
     """Seed 0 compressed along the grid to PHI, by FIRE alone."""
@@ -52,12 +57,20 @@ def with_friction(state: Packing, law: ContactLaw) -> Packing:
     return relax_damped(denser, interaction, Dashpot(1.0), 1e-2, 1e-300, TIME_STEPS).packing
 
 
+def compressed_with_friction(n: int, law: ContactLaw) -> Trajectory:
+    """Seed 0 compressed with friction from the random placement to PHI, in coarse steps."""
+    press = FrictionalPress(law, Compression(phi_step=1e-2), FrictionalCompression())
+    start = place_at_random(n, 0, press.interaction.normal, press.compression)
+    return frictional_trajectory.compress_along_grid(start, PHI, press)
+
+
 def digest(packing: Packing, *numbers: float) -> str:
     """SHA-256 of all numbers of a packing, and of further ones."""
     found = hashlib.sha256(packing.fraction.tobytes())
     found.update(np.array([packing.box_length, *numbers]).tobytes())
-    if packing.history is not None and packing.rotation is not None:
+    if packing.rotation is not None:
         found.update(packing.rotation.tobytes())
+    if packing.history is not None:
         found.update(packing.history.i.tobytes() + packing.history.j.tobytes())
         found.update(packing.history.spring_state.tobytes())
     return found.hexdigest()
@@ -81,6 +94,10 @@ def main(path: str) -> None:
             "j": packing.contacts.j,
         }.items():
             arrays[f"{name}/{normal} {n}"] = np.asarray(values)
+    for law in COMPRESSED:
+        state = compressed_with_friction(64, law)
+        case = f"{law.normal} 64 {law.tangential}, compressed"
+        digests[case] = digest(state.packing, state.iterations, state.phi_jamming)
     np.savez(path, digest=json.dumps(digests), **arrays)
 
 

@@ -27,6 +27,8 @@ DIGESTS = {
     "hertz 1024": "52405c16ecd7b428",
     "hertz 1024 elastic": "e0bd5d691dd2d502",
     "hertz 1024 smoothed_coulomb": "1edbaacb0168b064",
+    "hertz 64 smoothed_coulomb, compressed": "baac73f6a9998e61",
+    "harmonic 64 elastic, compressed": "24eaccf405f7cb5f",
 }
 """First digits of the SHA-256 of every trajectory, on any machine."""
 

@@ -1,5 +1,7 @@
 """A tiny measurement of each numerical choice of packings, spectra, ensembles and kernels."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -10,10 +12,19 @@ from grainmodes.packing.forces import net_force
 from grainmodes.parameters.compression import Compression
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.spectrum import Eigenproblem, dense
-from measurements.accuracy import compression_step, kernel_polynomial, loops, precision, spectrum
+from measurements.accuracy import (
+    compression_step,
+    frictional_compression,
+    kernel_polynomial,
+    loops,
+    precision,
+    spectrum,
+)
 from measurements.accuracy import seeds as seeds_module
 from measurements.accuracy.diagram import ProcessResult, Size
 from measurements.accuracy.refined_modes import refined_eigenpairs
+
+COARSE_STEPS = Compression(phi_step=1e-2)
 
 
 def errors_of(rows) -> dict[tuple[str, float], float]:
@@ -24,7 +35,7 @@ def errors_of(rows) -> dict[tuple[str, float], float]:
 @pytest.fixture(autouse=True)
 def here(monkeypatch):
     """Nothing is measured in a process of its own, nor more than once."""
-    for module in (compression_step, precision, seeds_module, spectrum):
+    for module in (compression_step, frictional_compression, precision, seeds_module, spectrum):
         monkeypatch.setattr(
             module, "in_fresh_process", lambda find, *given: ProcessResult(find(*given), 0.0, 1.0)
         )
@@ -47,6 +58,19 @@ def test_a_coarse_compression_jams_at_a_lower_grid_point(monkeypatch):
     assert error[curve(r"mean $\phi_J$"), 1e-4] < 0.05
     assert {row.setting for row in rows if row.default} == {1e-4}
     assert {(row.samples, row.failed) for row in rows} == {(4, 0)}
+
+
+def test_only_friction_that_is_cut_off_makes_another_ensemble(monkeypatch):
+    """The reference is the default here, so that the default is off by nothing."""
+    module = frictional_compression
+    monkeypatch.setattr(module, "DEFAULT", replace(module.DEFAULT, compression=COARSE_STEPS))
+    monkeypatch.setattr(module, "REFERENCE", module.DEFAULT)
+    monkeypatch.setattr(module, "SETTINGS", {"n": ("choices", "max_steps", (20, 20_000))})
+    rows = list(module.measure(Size((16,), 4)))
+    error = errors_of(rows)
+    assert error["n, P", 20_000] == 0.0 < error["n, P", 20]
+    assert {row.setting for row in rows if row.default} == {20_000}
+    assert {row.curve for row in rows} == {f"n, {name}" for name in module.QUANTITIES}
 
 
 def test_a_compression_that_fails_is_counted(monkeypatch):
