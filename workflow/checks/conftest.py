@@ -15,7 +15,7 @@ import pytest
 import xarray
 
 from grainmodes.ensemble import open_ensemble
-from grainmodes.ensemble.lost import LostSample, lost_samples
+from grainmodes.ensemble.lost import LostSample, lost_samples, points_of_stages
 
 RESULTS = pytest.StashKey[list[str]]()
 
@@ -30,7 +30,7 @@ def pytest_generate_tests(metafunc) -> None:
     """Give a check of stages every stage of the ensemble, and every other that lost a sample."""
     if "stage" in metafunc.fixturenames:
         with open_ensemble(metafunc.config.getoption("ensemble")) as opened:
-            stages = [stage for stage in opened.attrs.get("stages", "").split(", ") if stage]
+            stages = [*points_of_stages(opened)]
             stages += sorted({sample.stage for sample in lost_samples(opened)} - {*stages})
         metafunc.parametrize("stage", stages)
 

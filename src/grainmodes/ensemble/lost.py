@@ -42,9 +42,23 @@ class LostSample(NamedTuple):
         return f"{place}: {self.reason}"
 
 
+def point_name(n: int, phi: float, kt: float) -> str:
+    """The name of a point in the attributes of an ensemble: "16,0.85,0.0001"."""
+    return f"{n},{phi},{kt}"
+
+
 def sample_name(n: int, phi: float, kt: float, seed: int) -> str:
     """The name of a sample in the attributes of an ensemble: "16,0.85,0.0001,3"."""
-    return f"{n},{phi},{kt},{seed}"
+    return f"{point_name(n, phi, kt)},{seed}"
+
+
+def points_of_stages(ensemble: xr.Dataset) -> dict[str, set[Point]]:
+    """Stage → the points at which an ensemble requested it."""
+    found = {}
+    for stage, names in json.loads(ensemble.attrs.get("stages", "{}")).items():
+        rows = (name.split(",") for name in names)
+        found[stage] = {(int(n), float(phi), float(kt)) for n, phi, kt in rows}
+    return found
 
 
 def lost_samples(ensemble: xr.Dataset) -> list[LostSample]:

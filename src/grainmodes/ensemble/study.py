@@ -20,7 +20,7 @@ from grainmodes.dataset import VARIABLES
 from grainmodes.dataset.files import Block, BlockError, content_of, new_file, read_block
 from grainmodes.dataset.lost import KINDS, Lost
 from grainmodes.dataset.units import Laws, laws_of
-from grainmodes.ensemble.lost import sample_name
+from grainmodes.ensemble.lost import point_name, sample_name
 from grainmodes.ensemble.point import STAGES
 
 GRID = ("n", "phi", "kt")
@@ -29,12 +29,12 @@ INTEGER_FILL = -1
 
 class Layout(NamedTuple):
     """The structure of the file: values of the coordinates, lengths of the series, variables, and
-    the stages that were computed."""
+    the points at which each stage was computed, as "n,phi,kt"."""
 
     coordinates: dict[str, np.ndarray]
     lengths: dict[str, int]
     names: list[str]
-    stages: list[str]
+    stages: dict[str, list[str]]
     code_version: str
 
 
@@ -60,7 +60,7 @@ def write_ensemble(point_paths: list[str | Path], out_path: str | Path, config: 
         file.title = "Ensemble of jammed packings: response, spectra and provenance, by sample"
         file.code_version = layout.code_version
         file.config = json.dumps(config, sort_keys=True)
-        file.stages = ", ".join(layout.stages)
+        file.stages = json.dumps(layout.stages)
         for kind, lost in _fill(file, layout, paths).items():
             file.setncattr(kind, json.dumps(lost, sort_keys=True))
 
@@ -95,13 +95,14 @@ def _coordinates(block: Block) -> tuple[int, float, float]:
 
 
 def _layout(paths: list[Path]) -> Layout:
-    stages: set[str] = set()
+    stages: dict[str, list[str]] = {stage: [] for stage in STAGES}
     grid, seeds, names, versions, lengths = set(), set(), set(), set(), {"mode": 0}
     for _, block in _points(paths):
         grid.add(_coordinates(block))
         seeds.update(block.variables["seed"].tolist())
         names.update(name for name in block.variables if name != "seed")
-        stages.update(block.mapping("config"))
+        for stage in block.mapping("config"):
+            stages.setdefault(stage, []).append(point_name(*_coordinates(block)))
         versions.add(str(block.attributes["code_version"]))
         for name, array in block.variables.items():
             if array.ndim == 2:
@@ -112,7 +113,7 @@ def _layout(paths: list[Path]) -> Layout:
     }
     coordinates |= {"seed": np.array(sorted(seeds)), "mode": np.arange(lengths.pop("mode"))}
     in_table_order = [name for name in VARIABLES if name in names]
-    computed = [stage for stage in STAGES if stage in stages]
+    computed = {stage: points for stage, points in stages.items() if points}
     return Layout(coordinates, lengths, in_table_order, computed, ", ".join(sorted(versions)))
 
 

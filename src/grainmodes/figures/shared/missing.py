@@ -16,7 +16,13 @@ import numpy as np
 import pandas as pd
 
 from grainmodes.dataset.files import Block
-from grainmodes.ensemble.lost import LostSample, Point, lost_in_blocks, lost_samples
+from grainmodes.ensemble.lost import (
+    LostSample,
+    Point,
+    lost_in_blocks,
+    lost_samples,
+    points_of_stages,
+)
 from grainmodes.figures.shared import labels
 from grainmodes.parameters.figures import FIGURES
 from grainmodes.parameters.stages import STAGES, responses
@@ -61,16 +67,16 @@ def shortages(name: str, source: xr.Dataset | list[Block]) -> list[Shortage]:
     """The points of an ensemble, or of files of single samples, that lack samples for a figure."""
     if isinstance(source, list):
         return _in_blocks(source)
-    return _in_ensemble(source, only_jammed=bool({*NOTHING} & {*FIGURES[name].observables}))
+    only_jammed = bool({*NOTHING} & {*FIGURES[name].observables})
+    points = points_of_stages(source)
+    drawn = set.intersection(*(points.get(stage, set()) for stage in _stages_of(name)))
+    return [found for found in _in_ensemble(source, only_jammed) if found.point in drawn]
 
 
-def is_requested(name: str, source: xr.Dataset | list[Block]) -> bool:
-    """Whether the study of a source computed all stages that a figure is drawn from."""
-    if isinstance(source, list):
-        return True
+def _stages_of(name: str) -> set[str]:
+    """The stages that a figure cannot do without."""
     words = {"spectrum" if word == "modes" else word for word in FIGURES[name].observables}
-    stages = {stage.output for stage in responses() if stage.observable in words}
-    return stages <= set(source.attrs.get("stages", "").split(", "))
+    return {stage.output for stage in responses() if stage.observable in words}
 
 
 def notes(name: str, found: Iterable[Shortage], table: pd.DataFrame) -> list[str]:
