@@ -17,7 +17,7 @@ from numba import njit
 from grainmodes.kernels.compiler import FLAGS
 from grainmodes.kernels.damping import Dashpot
 from grainmodes.kernels.dynamics import Grains, Stop, integrate
-from grainmodes.kernels.fire import MIXING, FireState, advance, next_state, power_and_norms
+from grainmodes.kernels.fire import MIXING, FireState, advance, next_state
 from grainmodes.kernels.laws import Interaction
 from grainmodes.kernels.neighbours import FRACTION_UNIT, find_neighbours
 from grainmodes.kernels.repulsion import mean_force_and_stiffness
@@ -64,6 +64,17 @@ def descent(overlap: type, force: type) -> Callable:
                 force_y[i] += fy
                 force_x[j] -= fx
                 force_y[j] -= fy
+
+    @njit(**{**FLAGS, "cache": False})
+    def power_and_norms(vx, vy, fx, fy, inverse_mass, half_step):
+        power, speed2, force2 = force(0.0), force(0.0), force(0.0)
+        for i in range(vx.shape[0]):
+            kick = force(half_step) * inverse_mass[i]
+            u, w = vx[i] + kick * fx[i], vy[i] + kick * fy[i]
+            power += u * fx[i] + w * fy[i]
+            speed2 += u * u + w * w
+            force2 += fx[i] * fx[i] + fy[i] * fy[i]
+        return power, speed2, force2
 
     @njit(**{**FLAGS, "cache": False})
     def descend(x, y, inverse_mass, scale, pairs, contact_distance, limit, steps):

@@ -105,7 +105,7 @@ def test_a_spring_at_its_threshold_slides(normal, tangential):
     normal_force = naive.normal_force(law, overlap)
     if normal == "hertz":
         held = s if tangential.endswith("force") else 0.3 * np.sqrt(overlap) * s
-        assert np.mean(held < 0.4 * normal_force) > 0.1
+        assert np.mean(held < 0.4 * normal_force) > 0.05
     contacts = lying_along_x(overlap, s)
     assert sliding(contacts, Interaction.from_law(law)).all()
     np.testing.assert_array_equal(stiffness_of(contacts, Interaction.from_law(law))[:, 2, 2], 0.0)

@@ -27,7 +27,6 @@ import numpy as np
 from grainmodes.kernels.cache_blocks import GRAINS_PER_BLOCK, pair_scratch
 from grainmodes.kernels.compiler import kernel
 from grainmodes.kernels.damping import drag_rate, pair_viscosity, rotational_drag_rate
-from grainmodes.kernels.lanes import lane_sum
 from grainmodes.kernels.laws import (
     advance_spring,
     clip_to_coulomb,
@@ -209,8 +208,10 @@ def residual_motion(grains):
     force = max(np.abs(grains.fx).max(), np.abs(grains.fy).max())
     velocity = max(np.abs(grains.vx).max(), np.abs(grains.vy).max())
     turning = max(np.abs(grains.torque).max(), np.abs(grains.w).max())
-    numbers = lane_sum(grains.fx) + lane_sum(grains.fy) + lane_sum(grains.torque)
-    numbers += lane_sum(grains.vx) + lane_sum(grains.vy) + lane_sum(grains.w)
+    numbers = 0.0
+    for i in range(grains.x.shape[0]):
+        numbers += grains.fx[i] + grains.fy[i] + grains.torque[i]
+        numbers += grains.vx[i] + grains.vy[i] + grains.w[i]
     if not np.isfinite(numbers):
         return np.inf
     return max(force, max(velocity, turning))
