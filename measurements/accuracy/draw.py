@@ -1,9 +1,9 @@
 """Draw a work-precision diagram: `python -m measurements.accuracy.draw strain_step.csv -o stem`.
 
-(a) error against CPU seconds, (b) error against the setting, (c) peak memory. A curve with a name
-"method, quantity" takes its symbol and line from the method, its colour from the quantity. A
-setting at which some samples failed has an open symbol, and a cross at the upper edge if all
-failed; an error of zero is a triangle at the lower edge.
+(a) error against CPU seconds, (b) error against the setting, (c) peak memory; of many curves those
+of each quantity have two panels of their own, time above setting. A setting at which some samples
+failed has an open symbol, and a cross at the upper edge if all failed; an error of zero is a
+triangle at the lower edge.
 """
 
 from __future__ import annotations
@@ -12,99 +12,118 @@ import argparse
 import math
 import sys
 import textwrap
-from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
 
 import matplotlib.style
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.lines import Line2D
 
 from grainmodes.figures import DOTS_PER_INCH, STYLE
-from grainmodes.figures.shared import appearance, labels
+from grainmodes.figures.shared import labels
 from grainmodes.runtime.atomic import replaced
-from measurements.accuracy.diagram import DiagramRow, knee
+from measurements.accuracy import panels
 from measurements.accuracy.table import Table, curves, read
 
-LINES = ("-", "--", ":", "-.")
 CAPTION_WIDTH = 130
 """Number of letters in a line of the caption."""
-
-RINGS = {"knee": ("o", 9.0), "default": ("s", 10.5)}
-"""Symbols around the points of the knee and of the default, and their sizes."""
-
-RING = {"mfc": "none", "mec": "k", "mew": 0.8, "ls": ""}
-
-SHORT_AXIS_RATIO = 100.0
-"""Ratio of the limits of an axis below which labels at powers of ten alone would be too few."""
 
 MAX_NAMED_SETTINGS = 3
 """Number of settings up to which each has a label at the axis."""
 
-LOGARITHMIC_MEMORY_RATIO = 10.0
-"""Ratio of the largest memory to the smallest above which its axis is logarithmic."""
-
-
-class CurveStyle(NamedTuple):
-    """How a curve is drawn."""
-
-    color: tuple
-    marker: str
-    linestyle: str
-
-
-def assign_styles(names: list[str]) -> dict[str, CurveStyle]:
-    """How each curve "method, quantity" is drawn; a name without a comma is a quantity."""
-    split = {name: _method_and_quantity(name) for name in names}
-    methods, quantities = (list(dict.fromkeys(part)) for part in zip(*split.values(), strict=True))
-    colours = {quantity: colour for quantity, colour, _ in appearance.curve_styles(quantities)}
-    return {
-        name: CurveStyle(
-            colours[quantity],
-            appearance.MARKERS[methods.index(method) % len(appearance.MARKERS)],
-            LINES[methods.index(method) % len(LINES)],
-        )
-        for name, (method, quantity) in split.items()
-    }
-
-
-def _method_and_quantity(name: str) -> tuple[str, str]:
-    method, comma, quantity = name.partition(", ")
-    return (method, quantity) if comma else ("", name)
+MAX_COLUMNS = 4
+"""Number of quantities side by side."""
 
 
 def draw(figure: Figure, table: Table) -> None:
-    """Draw the three panels, the legend below them and the caption above."""
-    rows, words = curves(table), table.words
-    figure.set_size_inches(7.0, 3.3 + 0.16 * math.ceil((len(rows) + len(RINGS)) / 3))
-    against_time, against_setting, memory = figure.subplots(1, 3, width_ratios=(3.0, 3.0, 1.8))
-    against_setting.sharey(against_time)
+    """Draw the panels, the legend below them and the caption above."""
+    rows = curves(table)
+    styles, shared = panels.assign_styles(list(rows)), panels.share_panels(list(rows))
+    entries = _entries(styles, together=len(shared) == 1)
+    lay_out = _in_one_line if len(shared) == 1 else _in_lines
+    pairs, memory = lay_out(figure, len(shared), 0.16 * math.ceil(len(entries) / 3))
     edges = _edges(table)
-    for name, style in assign_styles(list(rows)).items():
-        _curve(against_time, rows[name], style, edges, lambda row: row.seconds, name)
-        _curve(against_setting, rows[name], style, edges, lambda row: row.setting)
-        _memory(memory, rows[name], style)
-    for axes, subs in ((against_time, (1, 2, 5)), (against_setting, (1,)), (memory, (1, 3))):
-        _scale(axes, subs)
-    tried = table.rows["setting"].unique()
-    if len(tried) <= MAX_NAMED_SETTINGS:
-        against_setting.set_xticks(tried, [f"{setting:g}" for setting in tried], minor=False)
-    for axes in (against_time, against_setting):
-        axes.set(yscale="log", ylim=(edges[0] / 4, edges[1] * 2))
-    against_setting.tick_params(labelleft=False)
-    against_time.set(xlabel=f"CPU s per {words['unit']}", ylabel=words["error"])
-    against_setting.set(xlabel=words["setting"])
-    memory.set(xlabel=against_time.get_xlabel(), ylabel="peak memory / MB")
-    _scale_memory(memory, table)
-    for kind, (marker, size) in RINGS.items():
-        against_time.plot([], [], marker, label=kind, ms=size, **RING)
-    for index, axes in enumerate((against_time, against_setting, memory)):
-        labels.name_panel(axes, index, ("work and precision", "setting", "memory")[index])
-    figure.legend(loc="outside lower center", ncols=3)
+    for index, ((title, names), (time, setting)) in enumerate(
+        zip(shared.items(), pairs, strict=True)
+    ):
+        for name in names:
+            panels.draw_curve(time, rows[name], styles[name], edges, lambda row: row.seconds)
+            panels.draw_curve(setting, rows[name], styles[name], edges, lambda row: row.setting)
+        labels.name_panel(time, index, title or "work and precision")
+        if not title:
+            labels.name_panel(setting, 1, "setting")
+    for name, style in styles.items():
+        panels.draw_memory(memory, rows[name], style)
+    labels.name_panel(memory, len(shared) + (len(shared) == 1), "memory")
+    _finish(pairs, memory, table, edges)
+    figure.legend(handles=entries, loc="outside lower center", ncols=3)
     figure.suptitle("\n".join(_caption(table)))
+
+
+def _in_one_line(figure: Figure, count: int, legend: float) -> tuple[list[tuple], Axes]:
+    """One pair of panels and the memory side by side; `legend` is its height in inches."""
+    figure.set_size_inches(7.0, 3.3 + legend)
+    time, setting, memory = figure.subplots(1, 3, width_ratios=(3.0, 3.0, 1.8))
+    return [(time, setting)], memory
+
+
+def _in_lines(figure: Figure, count: int, legend: float) -> tuple[list[tuple], Axes]:
+    """Pairs of panels, time above setting, some side by side, then the memory."""
+    cells = count + 1
+    lines = math.ceil(cells / MAX_COLUMNS)
+    columns = math.ceil(cells / lines)
+    figure.set_size_inches(7.0, 0.8 + 3.3 * lines + legend)
+    grid = figure.subplots(2 * lines, columns, squeeze=False)
+    places = [(2 * line, column) for line in range(lines) for column in range(columns)]
+    pairs = [(grid[row, column], grid[row + 1, column]) for row, column in places]
+    memory, *empty = (axes for pair in pairs[count:] for axes in pair)
+    for axes in empty:
+        axes.set_visible(False)
+    return pairs[:count], memory
+
+
+def _finish(pairs: list[tuple], memory: Axes, table: Table, edges: tuple[float, float]) -> None:
+    """Scale and label all axes; of panels side by side the leftmost carries what all share."""
+    words, tried = table.words, table.rows["setting"].unique()
+    alone = len(pairs) == 1
+    size = 10 if alone else 8
+    for time, setting in pairs:
+        panels.scale_time(time, (1, 2, 5) if alone else (1, 3))
+        panels.scale_time(setting, (1,))
+        if len(tried) <= MAX_NAMED_SETTINGS:
+            setting.set_xticks(tried, [f"{value:g}" for value in tried], minor=False)
+        time.set_xlabel(f"CPU s per {words['unit']}", fontsize=size)
+        if alone or _is_leftmost(setting):
+            setting.set_xlabel(words["setting"], fontsize=size, loc="center" if alone else "left")
+        for axes in (time, setting):
+            axes.set(yscale="log", ylim=(edges[0] / 4, edges[1] * 2))
+            if _is_leftmost(axes):
+                axes.set_ylabel(words["error"], fontsize=size)
+            else:
+                axes.tick_params(labelleft=False)
+    panels.scale_time(memory, (1, 3))
+    panels.scale_memory(memory, table)
+    memory.set_xlabel(f"CPU s per {words['unit']}", fontsize=size)
+    memory.set_ylabel("peak memory / MB", fontsize=size)
+
+
+def _is_leftmost(axes: Axes) -> bool:
+    place = axes.get_subplotspec()
+    return place is not None and place.colspan.start == 0
+
+
+def _entries(styles: dict[str, panels.CurveStyle], together: bool) -> list[Line2D]:
+    """The legend: knee and default, then all curves, or the methods of many."""
+    rings = [
+        Line2D([], [], marker=marker, label=kind, ms=size, **panels.RING)
+        for kind, (marker, size) in panels.RINGS.items()
+    ]
+    names = {
+        name if together else panels.method_and_quantity(name)[0]: style
+        for name, style in styles.items()
+    }
+    return rings + [Line2D([], [], label=name, **style._asdict()) for name, style in names.items()]
 
 
 def _edges(table: Table) -> tuple[float, float]:
@@ -112,63 +131,6 @@ def _edges(table: Table) -> tuple[float, float]:
     errors = table.rows["error"]
     shown = errors[(errors > 0.0) & (errors < math.inf)]
     return (shown.min() / 4.0, shown.max() * 4.0) if len(shown) else (0.1, 1.0)
-
-
-def _curve(
-    axes: Axes, rows: list[DiagramRow], style: CurveStyle, edges, across: Callable, label: str = "_"
-) -> None:
-    """Draw a curve with its bars, the points beyond the edges, and the symbols around points."""
-    counted = [row for row in rows if edges[0] < row.error < edges[1]]
-    x, y = [across(row) for row in counted], [row.error for row in counted]
-    symbol = {"color": style.color, "marker": style.marker}
-    line = {"linestyle": style.linestyle, "elinewidth": 0.5, "label": label}
-    axes.errorbar(x, y, _bars(counted), **line, **symbol)
-    partly = [row for row in counted if row.failed]
-    axes.plot([across(r) for r in partly], [r.error for r in partly], ls="", mfc="white", **symbol)
-    for row in rows:
-        if row not in counted:
-            edge, marker = (edges[0], "v") if row.error == 0.0 else (edges[1], "x")
-            axes.plot(across(row), edge, marker, color=style.color, clip_on=False)
-    _ring(axes, knee(rows), "knee", edges, across)
-    for row in rows:
-        if row.default:
-            _ring(axes, row, "default", edges, across)
-
-
-def _bars(rows: list[DiagramRow]) -> np.ndarray:
-    """Lengths of the bars (2, R): the same factor down as up, so that none reaches zero."""
-    error, spread = (np.array([getattr(row, name) for row in rows]) for name in ("error", "spread"))
-    spread = np.nan_to_num(spread)
-    return np.stack([spread / (1.0 + spread / error), spread])
-
-
-def _ring(axes: Axes, row: DiagramRow | None, kind: str, edges, across: Callable) -> None:
-    marker, size = RINGS[kind]
-    if row is not None:
-        axes.plot(across(row), max(row.error, edges[0]), marker, ms=size, **RING)
-
-
-def _memory(axes: Axes, rows: list[DiagramRow], style: CurveStyle) -> None:
-    seconds, megabytes = [row.seconds for row in rows], [row.megabytes for row in rows]
-    axes.plot(seconds, megabytes, ms=3.0, **style._asdict())
-
-
-def _scale(axes: Axes, subs: tuple[int, ...]) -> None:
-    """A logarithmic axis; one that is short has labels at these parts of a decade."""
-    axes.set_xscale("log")
-    low, high = axes.get_xlim()
-    if high < SHORT_AXIS_RATIO * low:
-        axes.xaxis.set_major_locator(LogLocator(subs=subs))
-        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.xaxis.set_minor_formatter(NullFormatter())
-
-
-def _scale_memory(axes: Axes, table: Table) -> None:
-    megabytes = table.rows["megabytes"]
-    if megabytes.max() > LOGARITHMIC_MEMORY_RATIO * megabytes.min():
-        axes.set_yscale("log")
-    else:
-        axes.set_ylim(0.0, 1.15 * megabytes.max())
 
 
 def _caption(table: Table) -> list[str]:

@@ -38,7 +38,7 @@ rule draw_accuracy:
     input:
         script="measurements/accuracy/draw.py",
         table=f"{DIAGRAM}.csv",
-        code=sources_of_accuracy("diagram", "table"),
+        code=sources_of_accuracy("diagram", "panels", "table"),
         style=sources("grainmodes.figures"),
     output:
         [f"{DIAGRAM}.{form}" for form in ("png", "pdf")],

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from matplotlib.figure import Figure
 
 from measurements.accuracy import (
     NAMES,
@@ -13,6 +14,7 @@ from measurements.accuracy import (
     draw,
     force_tolerance,
     growth_rate,
+    panels,
     strain_step,
     table,
     time_step,
@@ -133,8 +135,39 @@ def test_a_picture_shows_every_curve_its_knee_and_the_default(tmp_path):
     assert (tmp_path / "t.png").stat().st_size > 20_000
 
 
+def picture(names: list[str]) -> Figure:
+    figure = Figure()
+    lines = [row for name in names for row in curve([1e-2, 1e-5, 1e-8], name=name)]
+    draw.draw(figure, measured(lines))
+    return figure
+
+
+def test_many_curves_have_panels_by_quantity_and_a_legend_of_methods():
+    names = [
+        f"{method}, {what}" for method in ("b = 0.1", "b = 0.01", "b = 0.001") for what in "gPZ"
+    ]
+    figure = picture(names)
+    shown = [axes for axes in figure.axes if axes.get_visible()]
+    assert len(shown) == 2 * 3 + 1
+    titles = [axes.get_title("left") for axes in shown]
+    assert [title for title in titles if title] == ["(a) g", "(b) P", "(c) Z", "(d) memory"]
+    (legend,) = figure.legends
+    words = [text.get_text() for text in legend.get_texts()]
+    assert words == ["knee", "default", *methods]
+    styles = panels.assign_styles(names)
+    assert styles["b = 0.1, g"] == styles["b = 0.1, P"] != styles["b = 0.01, g"]
+
+
+def test_a_few_curves_share_three_panels_and_are_all_in_the_legend():
+    names = ["fast, g", "fast, contacts", "FIRE, g"]
+    figure = picture(names)
+    assert len(figure.axes) == 3
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["knee", "default", *names]
+
+
 def test_curves_of_one_kind_share_a_symbol_and_of_one_quantity_a_colour():
-    styles = draw.assign_styles(["fast, g", "fast, contacts", "FIRE, g", "all"])
+    styles = panels.assign_styles(["fast, g", "fast, contacts", "FIRE, g", "all"])
     assert styles["fast, g"].marker == styles["fast, contacts"].marker != styles["FIRE, g"].marker
     assert styles["fast, g"].color == styles["FIRE, g"].color != styles["fast, contacts"].color
     assert len({style.color for style in styles.values()}) == 3
