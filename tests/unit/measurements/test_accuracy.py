@@ -143,9 +143,8 @@ def picture(names: list[str]) -> Figure:
 
 
 def test_many_curves_have_panels_by_quantity_and_a_legend_of_methods():
-    names = [
-        f"{method}, {what}" for method in ("b = 0.1", "b = 0.01", "b = 0.001") for what in "gPZ"
-    ]
+    methods = ["b = 0.1", "b = 0.01", "b = 0.001"]
+    names = [f"{method}, {what}" for method in methods for what in "gPZ"]
     figure = picture(names)
     shown = [axes for axes in figure.axes if axes.get_visible()]
     assert len(shown) == 2 * 3 + 1
