@@ -23,7 +23,7 @@ def ensemble() -> xr.Dataset:
     dataset = claim_fixtures.ensemble()
     rows = [_sample(seed) for seed in range(claim_fixtures.SEEDS)]
     for name in rows[0]:
-        axes = {"pair": "pair_state", "neighbour": "neighbour_state"}
+        axes = {"pair": "pair_state", "neighbour": "neighbour_state", "track": "track"}
         axis = axes.get(name.partition("_")[0], "exceptional_point")
         values = np.stack([np.asarray(row[name], float) for row in rows])
         dims = ("seed", axis)[: values.ndim]
@@ -43,6 +43,8 @@ def _sample(seed: int) -> dict[str, object]:
         "pair_count": np.arange(5),
         "pair_strain": 1e-3 * np.arange(5),
         "track_count": 4 + seed % 2,
+        "track_birth_kind": [1],
+        "track_death_kind": [1],
         "exceptional_point_track": [0, 0],
         "exceptional_point_birth": [1, 0],
         "exceptional_point_kind": [1, 1],

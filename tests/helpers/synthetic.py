@@ -231,6 +231,8 @@ def _pairs(n, phi, kt, size, draws):
         "pair_state_count": np.full(size, len(strain)),
         "pair_strain": one * strain,
         "pair_count": one * (squared < 0.0),
+        "track_birth_kind": one * [1],
+        "track_death_kind": one * [1],
         "exceptional_point_track": one * [0, 0],
         "exceptional_point_birth": one * [1, 0],
         "exceptional_point_kind": one * [1, 1],

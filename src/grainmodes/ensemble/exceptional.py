@@ -34,7 +34,8 @@ class PairSample:
     """The exceptional points of one sample, the states around them and the paths of the two modes.
 
     `coordinates` has n, phi, kt and seed. `exceptional_points` has the columns track, birth, kind
-    and strain, and the exponents on the side where the modes are real and where they are a pair.
+    and strain, the exponents on the side where the modes are real and where they are a pair, and
+    `whole`: whether its pair is born and dies where two eigenvalues meet.
     In `neighbours` and `path` the column `point` is the row of the exceptional point.
     """
 
@@ -70,10 +71,18 @@ def _sample(ensemble: xr.Dataset, coordinates: dict[str, float]) -> PairSample:
     names = ("track", "birth", "kind", "strain", "exponent_real", "exponent_pair")
     points = _frame(row, "exceptional_point", names)
     points = points[points["kind"] == COALESCENCE]
+    tracks = points["track"].to_numpy(int)
+    points = points.assign(whole=_is_coalescence(row, "birth")[tracks])
+    points["whole"] &= _is_coalescence(row, "death")[tracks]
     products = _frame(row, "product", PRODUCT_COLUMNS).rename(columns={"value": "product"})
     neighbours = _frame(row, "neighbour", NEIGHBOUR_COLUMNS)
     path = _frame(row, "followed", PATH_COLUMNS)
     return PairSample(coordinates, points, neighbours, path, products)
+
+
+def _is_coalescence(row: xr.Dataset, event: str) -> np.ndarray:
+    """Which tracks of a sample are born, or die, where two eigenvalues meet: (tracks,) bool."""
+    return np.asarray(row[f"track_{event}_kind"].to_numpy() == COALESCENCE)
 
 
 def _frame(row: xr.Dataset, prefix: str, names: tuple[str, ...]) -> pd.DataFrame:

@@ -1,13 +1,15 @@
 """Figures of complex pairs against the closed form from which their ensemble was made."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from numpy.testing import assert_allclose
 
 import synthetic
 from grainmodes.ensemble import open_ensemble
-from grainmodes.ensemble.exceptional import pair_samples
+from grainmodes.ensemble.exceptional import PairSample, pair_samples
 from grainmodes.figures.paper_c import pair_birth, pair_exponent, pair_overlap
+from grainmodes.figures.shared.pair_samples import longest_pair
 from grainmodes.figures.shared.selection import Options
 
 
@@ -44,6 +46,19 @@ def test_a_birth_is_shown_from_two_real_modes_to_a_pair(paired):
     inside = (table["strain"] > 4e-3) & (table["strain"] < 7.9e-3)
     assert np.all(table.loc[inside, "imaginary"] > 0.0)
     assert_allclose(table.loc[inside, "real_1"], table.loc[inside, "real_2"])
+
+
+@pytest.mark.parametrize(("whole", "shown"), [([True, True], 1), ([True, False], 0)])
+def test_a_pair_that_dies_where_two_eigenvalues_meet_is_preferred(whole, shown):
+    """C, Fig. 3: real, then a pair, then real again, both times through a coalescence."""
+    imaginary = [[0.0, 1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 1.0, 1.0, 0.0]]
+    paths = [
+        pd.DataFrame({"point": float(point), "strain": np.arange(5.0), "imaginary": values})
+        for point, values in enumerate(imaginary)
+    ]
+    points = pd.DataFrame({"whole": whole})
+    sample = PairSample({}, points, pd.DataFrame(), pd.concat(paths), pd.DataFrame())
+    assert longest_pair(sample)["point"].unique().tolist() == [shown]
 
 
 def test_scalar_products_are_those_of_few_grains_and_of_a_pair(paired):

@@ -52,10 +52,21 @@ def samples_with_paths(ensemble) -> list[PairSample]:
 
 
 def longest_pair(sample: PairSample) -> pd.DataFrame:
-    """The path of one exceptional point: of those whose modes are real at both ends of the path,
-    the one that is a complex pair in the most states between; of all if there is none."""
-    paths = [path for _, path in sample.path.groupby("point")]
-    return max(paths, key=lambda path: (_is_real_at_both_ends(path), is_pair(path).sum()))
+    """The path of one exceptional point, as C's Fig. 3 shows it.
+
+    Of the pairs that are born and die where two eigenvalues meet, and whose modes are real at both
+    ends of the path, the one that is a complex pair in the most states between. If there is none,
+    of the pairs that are real at both ends; else of all.
+    """
+    whole = sample.exceptional_points["whole"]
+    paths = [(bool(whole.get(point, False)), path) for point, path in sample.path.groupby("point")]
+
+    def rank(entry: tuple[bool, pd.DataFrame]) -> tuple[bool, bool, int]:
+        coalesces, path = entry
+        both_ends = _is_real_at_both_ends(path)
+        return coalesces and both_ends, both_ends, int(is_pair(path).sum())
+
+    return max(paths, key=rank)[1]
 
 
 def is_pair(path: pd.DataFrame) -> pd.Series:
