@@ -89,7 +89,7 @@ def _state(seed: int, place: int) -> dict[str, object]:
         "after_stress_xy": 1e-5 * factor * nothing,
         "after_contact_number": 4.2 * nothing,
         "after_sliding": 9.0 * factor * nothing,
-        "after_mean_square_displacement": 0.3 * factor * nothing,
+        "after_mean_square_displacement": 3.0 * factor * nothing,
         "binary_tail_before": 0.02 * factor,
         "binary_tail_after": 0.05 * factor**2,
         "pressure_by_z_before": pressures,

@@ -7,7 +7,13 @@ import claim_fixtures
 import claim_fixtures_release
 from claim_mutants_release import MUTANTS, ends_after_one_time
 from grainmodes.claims import CLAIMS, check, paper_c
-from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_RESOLVED, NOT_TESTED
+from grainmodes.claims.claim import (
+    CONTRADICTED,
+    HOLDS,
+    NOT_COMPARABLE,
+    NOT_RESOLVED,
+    NOT_TESTED,
+)
 
 NAMES = ["C4", "C5", "C6", "C7", "C10", "C11", "C12", "C13", "C14", "C15", "C16"]
 NEEDED = {
@@ -92,6 +98,15 @@ def test_a_plateau_shorter_than_a_growth_time_contradicts_c6():
     soon = ensemble["release_end_time"] + 0.2 / ensemble["release_rate_linear"]
     ensemble["release_second_time"] = soon
     assert verdicts(ensemble)["C6"].verdict == CONTRADICTED
+
+
+def test_grains_that_have_not_left_their_places_show_no_diffusion():
+    ensemble = claim_fixtures_release.ensemble()
+    square = ensemble["release_after_mean_square_displacement"]
+    ensemble["release_after_mean_square_displacement"] = 0.1 * square
+    found = verdicts(ensemble)["C13"]
+    assert found.verdict == NOT_COMPARABLE
+    assert found.needed == "runs to M ≥ d²"
 
 
 def test_states_with_a_single_pair_do_not_show_which_pair_dominates():

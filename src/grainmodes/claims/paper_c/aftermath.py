@@ -24,7 +24,7 @@ from grainmodes.statistics.estimates import mean
 if TYPE_CHECKING:
     import xarray as xr
 
-MIN_LOG_SQUARE = -1.0
+MIN_LOG_SQUARE = 0.0
 """log10 of M, in d², at the end of a run, below which the grains have not left their places."""
 
 DIFFUSION_RANGE = (0.75, 1.25)
@@ -70,7 +70,7 @@ def diffusive(ensemble: xr.Dataset) -> Outcome:
     """After the second instability the grains diffuse (Sec. VI B (4), Fig. 7).
 
     This is the exponent of M in the time since the second instability, over the last decade of this
-    time, of the runs without damping that reach it. Where M at the end is below 0.1 d² the grains
+    time, of the runs without damping that reach it. Where M at the end is below d² the grains
     have not left their places, and the run is too short to be compared.
 
     Asked of: every listed growth rate with runs that reach a second instability.
@@ -83,7 +83,7 @@ def diffusive(ensemble: xr.Dataset) -> Outcome:
     for states, reached in _reaching(ensemble, notes, *names):
         exponent = mean(states.undamped("diffusion_exponent")[reached])
         square = mean(np.log10(states.undamped("after_mean_square_displacement")[reached]))
-        needs = "" if square.value > MIN_LOG_SQUARE else "runs to M ≥ 0.1 d²"
+        needs = "" if square.value > MIN_LOG_SQUARE else "runs to M ≥ d²"
         parts.append(Part(states.where, exponent, *DIFFUSION_RANGE, needs=needs))
         notes.append(f"There log10 M is {square} at the end.")
     return _outcome(parts, notes)

@@ -23,6 +23,7 @@ from grainmodes.figures.shared.release_rows import (
     RUN,
     ReleasedState,
     growing_records,
+    growth_line,
     one_released_state,
     release_caption,
 )
@@ -164,15 +165,11 @@ def _draw_turns(axes: Axes, shown: pd.DataFrame, column: str, law: str, start: f
 
 
 def _draw_growth(axes: Axes, table: pd.DataFrame, column: str) -> None:
-    """Draw the growth, and e^(2 ω_i t) of the pair through the largest value of the fit."""
+    """Draw the growth, and e^(2 ω_i t) of the pair through its mean."""
     shown = growing_records(table)
     time = shown["rate"] * shown["time"]
     axes.semilogy(time, shown[column], ".", color="k", ms=1.6, label="dynamics")
-    largest = shown[column].max()
-    fit = shown[f"{column}_fit"].where(shown[f"{column}_fit"] < 10.0 * largest)
-    envelope = fit.max() * np.exp(2.0 * (time - time[fit.idxmax()]))
-    inside = (envelope > shown[column][shown[column] > 0.0].min()) & (envelope < 10.0 * largest)
     style = {"color": TRANSLATIONAL, "label": r"$e^{2 \omega_i t}$ of the pair"}
-    axes.semilogy(time[inside], envelope[inside], **style)
+    axes.semilogy(time, growth_line(shown, column, 2.0), **style)
     axes.set_xlabel(r"$\omega_i t$")
     axes.legend(loc="upper left")

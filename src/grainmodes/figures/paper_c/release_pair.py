@@ -7,7 +7,6 @@ C draws them for harmonic grains with the smoothed Coulomb law.
 
 from __future__ import annotations
 
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -22,12 +21,12 @@ from grainmodes.figures.shared.release_rows import (
     RUN,
     ReleasedState,
     growing_records,
+    growth_line,
     one_released_state,
     release_caption,
 )
 from grainmodes.figures.shared.sample_files import joined
 from grainmodes.figures.shared.selection import Options
-from grainmodes.parameters.release import GROWTH_RANGE
 
 COLUMNS = {
     **RUN,
@@ -94,12 +93,7 @@ def _draw_growth(axes: Axes, records: pd.DataFrame) -> None:
     shown = growing_records(records)
     time = shown["rate"] * shown["time"]
     axes.semilogy(time, shown["m"], ".", color="k", ms=1.6, label="dynamics")
-    inside = shown["m"].between(*GROWTH_RANGE)
-    if inside.any():
-        size = np.exp(np.mean(np.log(shown["m"][inside]) - 2.0 * time[inside]))
-        line = size * np.exp(2.0 * time)
-        drawn = line.between(shown["m"].min(), 10.0 * shown["m"].max())
-        style = {"color": TRANSLATIONAL, "label": r"$e^{2 \omega_i t}$"}
-        axes.semilogy(time[drawn], line[drawn], **style)
+    style = {"color": TRANSLATIONAL, "label": r"$e^{2 \omega_i t}$"}
+    axes.semilogy(time, growth_line(shown, "m", 2.0), **style)
     axes.set(xlabel=r"$\omega_i t$", ylabel="$M / d^2$")
     axes.legend(loc="upper left")

@@ -121,5 +121,5 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     grains.set(xlabel="$z$", ylabel=labels.modulus_label("$P_i$", table))
     for index, (axes, name) in enumerate(((contacts, "contacts"), (grains, "grains"))):
         labels.name_panel(axes, index, name)
-        axes.legend(loc="best")
+        axes.legend(loc="upper left" if axes is grains else "upper right")
     figure.suptitle(release_caption(table, "bars: standard error"))

@@ -102,7 +102,7 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     parts.set_yscale("log")
     start = table.loc[table["kind"] == "released", "imaginary"]
     released.plot(
-        followed["time"], followed["imaginary"] / start.max(), ".-", color=RED, ms=2.5, lw=0.6
+        followed["time"], followed["imaginary"] / start.iloc[0], ".-", color=RED, ms=2.5, lw=0.6
     )
     once = spectra.drop_duplicates("time")
     numbers.plot(once["time"], once["pairs"], "o-", color="k", ms=2.5, label="complex pairs")

@@ -13,6 +13,7 @@ from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.columns import LAW, POINT, SEED, law_values
 from grainmodes.figures.shared.sample_files import at_kt, at_point, law_of, point_of
 from grainmodes.figures.shared.selection import Options, smallest_or
+from grainmodes.parameters.release import GROWTH_RANGE
 
 PAPER_N = 500
 
@@ -120,6 +121,18 @@ def growing_records(records: pd.DataFrame) -> pd.DataFrame:
     """The records of one run until a little after the end of its growth; all if it has no end."""
     end = np.nan_to_num(records["end_time"].iloc[0], nan=np.inf)
     return records[(records["time"] > 0.0) & (records["time"] < SHOWN_GROWTH * end)]
+
+
+def growth_line(records: pd.DataFrame, column: str, exponent: float) -> pd.Series:
+    """e^(exponent ω_i t) through the geometric mean of a positive column in the range of the fit.
+
+    NaN where it leaves the values of the column by far.
+    """
+    time, values = records["rate"] * records["time"], records[column]
+    used = records["m"].between(*GROWTH_RANGE) & (values > 0.0)
+    size = np.mean(np.log(values[used]) - exponent * time[used]) if used.any() else np.nan
+    line = np.exp(size + exponent * time)
+    return line.where(line.between(values[values > 0.0].min(), 10.0 * values.max()))
 
 
 def release_caption(table: pd.DataFrame, *parts: str) -> str:
