@@ -82,7 +82,7 @@ def unstable_state(n: int, seed: int) -> UnstableState | None:
     tracking = PairTracking.start(compressed(n, seed, 0.9, GRAINS), INTERACTION, SHEAR, PAIRS)
     while not tracking.done:
         tracking.advance()
-    found = tracking.candidate
+    (found,) = tracking.candidates.found
     if found is None or found.growth < MIN_GROWTH_RATE:
         return None
     pairs, packing = found.state.pairs, found.state.equilibrium.packing
