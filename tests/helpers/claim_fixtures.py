@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-NS, PHIS = (32, 64), (0.86, 0.88, 0.90)
+NS, PHIS = (256, 288), (0.86, 0.88, 0.90)
 KTS = (0.0, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 2.0, 10.0)
 SEEDS = 16
 JAMMING = 0.84
@@ -38,6 +38,7 @@ def set_moduli(dataset: xr.Dataset, g: xr.DataArray) -> None:
     dataset["g"], dataset["g_simulated"], dataset["g_translational"] = g, g * (1 + 1e-6), g.copy()
     steps = xr.DataArray(1.0 + np.array(STRAINS), dims="diagnostic")
     dataset["g_forward_by_strain"] = g * steps
+    dataset["g_forward_damped"] = g.where(dataset["kt"] >= 1.0)
 
 
 def bins_of(dataset: xr.Dataset, size: int = 2000) -> xr.Dataset:
@@ -113,6 +114,10 @@ def _spectra(dataset: xr.Dataset) -> None:
         psi[(*place, slice(len(values)))] = kind
     dataset["eigenvalue"] = (*POINT, "mode"), eigenvalue
     dataset["psi_rotational"] = (*POINT, "mode"), psi
+    scaled = np.sqrt(
+        np.abs(eigenvalue) / np.maximum(dataset["kt"].to_numpy(), 1e-12)[:, None, None]
+    )
+    dataset["participation_ratio"] = (*POINT, "mode"), 0.2 + 0.1 * np.minimum(scaled, 2.0)
 
 
 def _modes(n: int, phi: float, kt: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
@@ -138,6 +143,9 @@ def _around_one(shares: np.ndarray) -> np.ndarray:
 def _rattlers(dataset: xr.Dataset) -> None:
     """Two modes of single grains at ω = 0.1 ω_R below the band."""
     eigenvalue, shape = dataset["eigenvalue"], dataset["eigenvalue"].shape[:-1]
+    contacts = np.full((*shape, eigenvalue.shape[-1] + 2), 4.0)
+    contacts[..., -2:] = 2.0
+    dataset["peak_contacts_rattlers"] = (*POINT, "mode_rattlers"), contacts
     kept = np.concatenate([eigenvalue.to_numpy(), np.full((*shape, 2), np.nan)], axis=-1)
     kept[..., -2:] = (0.01 * dataset["kt"].to_numpy())[None, None, :, None, None]
     ratio = np.full(kept.shape, 0.5)
@@ -161,6 +169,8 @@ def count_hessian(dataset: xr.Dataset) -> None:
 
 def _probes(dataset: xr.Dataset) -> None:
     one = ones(dataset)
+    dataset["field_difference"] = 1e-6 * noise(dataset, 0.01) * one
+    dataset["hessian_shift_sheared"] = 1e-3 * noise(dataset, 0.01) * one
     dataset["diagnostic_strain"] = one * xr.DataArray(np.array(STRAINS), dims="diagnostic")
     dataset["verlet_order_position"] = 2.0 * noise(dataset, 0.01) * one
     dataset["verlet_order_velocity"] = 1.0 * noise(dataset, 0.01) * one

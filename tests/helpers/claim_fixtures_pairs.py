@@ -12,7 +12,7 @@ import xarray as xr
 
 import claim_fixtures
 
-PLACE = {"n": 64, "phi": 0.90, "kt": 1.0}
+PLACE = {"n": claim_fixtures.NS[-1], "phi": 0.90, "kt": 1.0}
 DELTA = np.logspace(-8, -5, 4)
 STEEP = 1e2
 """(1 − product) / (γ − γ_c)."""

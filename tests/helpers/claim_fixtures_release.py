@@ -10,7 +10,7 @@ import xarray as xr
 
 import claim_fixtures
 
-PLACE = {"n": 64, "phi": 0.90, "kt": 1.0}
+PLACE = {"n": claim_fixtures.NS[-1], "phi": 0.90, "kt": 1.0}
 DAMPINGS = np.array([0.0, 0.1, 1.0, 3.0, 100.0])
 """η_0 of the runs, in units of ω_i."""
 

@@ -14,7 +14,7 @@ import xarray as xr
 
 import claim_fixtures
 
-N, PHI, KT = 64, 0.90, 1.0
+N, PHI, KT = claim_fixtures.NS[-1], 0.90, 1.0
 PLACE = {"n": N, "phi": PHI, "kt": KT}
 STEP, SMALLEST, STRAIN = 1e-3, 1e-7, 0.4
 EVENTS = np.arange(0.0053, STRAIN, 0.08)

@@ -35,8 +35,12 @@ def without_noise(ensemble):
     return ensemble["g"] / claim_fixtures.noise(ensemble, 0.05)
 
 
-def crossing_at_four(ensemble):
-    logarithm = np.log(ensemble["kt"].clip(1e-12) / 4.0)
+def crossing_at(kappa):
+    return lambda ensemble: cross_at(ensemble, kappa)
+
+
+def cross_at(ensemble, kappa):
+    logarithm = np.log(ensemble["kt"].clip(1e-12) / kappa)
     shifted = (
         (ensemble["phi"] - claim_fixtures.JAMMING)
         * logarithm
@@ -72,7 +76,7 @@ def peak_elsewhere(ensemble):
 def fewer_rotations(ensemble):
     psi, x = ensemble["psi_rotational"], np.sqrt(ensemble["eigenvalue"] / ensemble["kt"])
     upper = (ensemble["kt"] == 1e-2) & (psi > 0.5) & (x > 1.2)
-    ensemble["psi_rotational"] = psi.where(~upper, 0.45)
+    ensemble["psi_rotational"] = psi.where(~upper)
 
 
 def other_frictionless(ensemble):
@@ -120,13 +124,29 @@ def no_pairs(ensemble):
     ensemble["complex_pairs_at_rest"] = 0.0 * ensemble["complex_pairs_at_rest"]
 
 
+def moving_plateau(ensemble):
+    translational = ensemble["psi_rotational"] <= 0.5
+    moved = translational & (ensemble["kt"] == 1e-2)
+    ensemble["eigenvalue"] = ensemble["eigenvalue"].where(~moved, 1.3 * ensemble["eigenvalue"])
+    claim_fixtures.count_hessian(ensemble)
+
+
+def other_field(ensemble):
+    ensemble["field_difference"] = 1e5 * ensemble["field_difference"]
+
+
+def other_participation(ensemble):
+    ratio = ensemble["participation_ratio"]
+    ensemble["participation_ratio"] = ratio.where(ratio["kt"] != 1e-4, 1.5 * ratio)
+
+
 MUTANTS = {
     "A1": theory_off,
     "A2": proportional,
     "A3": not_flat,
     "A4": jump,
     "A5": product,
-    "A6": crossing_at_four,
+    "A6": crossing_at(20.0),
     "A7": mixed_modes,
     "A8": sound_in_the_band,
     "A9": peak_elsewhere,
@@ -140,6 +160,9 @@ MUTANTS = {
     "A17": rotations_needed,
     "A18": other_order,
     "A19": no_pairs,
+    "A20": moving_plateau,
+    "A21": other_field,
+    "A22": other_participation,
 }
 
 
@@ -147,7 +170,11 @@ def no_growth(ensemble):
     ensemble["g_nonaffine"] = ensemble["g_nonaffine"] / (ensemble["phi"] - claim_fixtures.JAMMING)
 
 
-def never_overlapping(ensemble):
+def positive_from_the_start(ensemble):
+    cross_at(ensemble, 0.1)
+
+
+def no_overlap(ensemble):
     values = ensemble["eigenvalue"]
     sound = abs(values / claim_fixtures.SOUND**2 - 1.0) < 1e-6
     ensemble["eigenvalue"] = values.where(~sound, values * 3e4)
@@ -165,10 +192,25 @@ def other_position_order(ensemble):
     ensemble["verlet_order_position"] = 0.5 * ensemble["verlet_order_position"]
 
 
-SECOND_MUTANTS = {
-    "A6": no_growth,
-    "A8": never_overlapping,
-    "A9": no_collapse,
-    "A18": other_position_order,
-}
-"""Changes that fail the second statement of a claim that makes two."""
+def other_dynamics(ensemble):
+    ensemble["g_forward_damped"] = 1.05 * ensemble["g_forward_damped"]
+
+
+def other_hessian_under_shear(ensemble):
+    ensemble["hessian_shift_sheared"] = 200.0 * ensemble["hessian_shift_sheared"]
+
+
+def on_loaded_grains(ensemble):
+    ensemble["peak_contacts_rattlers"] = ensemble["peak_contacts_rattlers"] + 1.0
+
+
+SECOND_MUTANTS = [
+    ("A1", other_dynamics),
+    ("A6", no_growth),
+    ("A6", positive_from_the_start),
+    ("A9", no_collapse),
+    ("A12", other_hessian_under_shear),
+    ("A13", on_loaded_grains),
+    ("A18", other_position_order),
+]
+"""Claims, and changes that fail another of their statements."""

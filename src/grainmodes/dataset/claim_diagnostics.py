@@ -12,6 +12,23 @@ NAMES = {
     "g_forward_by_strain": Variable(
         ("seed", "diagnostic"), "f8", MODULUS, "rigidity from one forward step strain of each size"
     ),
+    "g_forward_damped": Variable(
+        BLOCK, "f8", MODULUS, "rigidity from one forward step strain, relaxed by damped dynamics"
+    ),
+    "field_difference": Variable(
+        BLOCK,
+        "f8",
+        NUMBER,
+        "norm of the difference of the non-affine fields of theory and simulation over that of "
+        "theory",
+    ),
+    "hessian_shift_sheared": Variable(
+        BLOCK,
+        "f8",
+        NUMBER,
+        "mean |omega / omega_H - 1| of the frequencies of J and of the effective Hessian after "
+        "shear",
+    ),
     "g_translational": Variable(
         BLOCK, "f8", MODULUS, "g as a sum over the modes with psi^R < 1/2 alone"
     ),

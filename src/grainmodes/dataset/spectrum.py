@@ -33,6 +33,13 @@ NAMES = {
         NUMBER,
         "participation ratio p of a mode of the Jacobian that includes the rattlers",
     ),
+    "peak_contacts_rattlers": Variable(
+        MODES,
+        "f8",
+        NUMBER,
+        "number of contacts of the grain that moves most in a mode of the Jacobian that includes "
+        "the rattlers",
+    ),
     "mode_count_rattlers": Variable(
         BLOCK, "i8", NUMBER, "number of modes of the Jacobian that includes the rattlers"
     ),

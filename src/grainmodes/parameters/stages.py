@@ -112,7 +112,7 @@ ENTRIES = (
     ),
     Stage(
         "claim_diagnostics",
-        "Measurements that only the claims A12 and A16 to A19 need.",
+        "Measurements that only the claims A1, A12, A16 to A19 and A21 need.",
         "grainmodes.stages.claim_diagnostics:claim_diagnostics_block",
         "claim_diagnostics",
         arguments={"rattlers": "protocol.rattlers", "step": "protocol.step_strain"},

@@ -38,7 +38,8 @@ RELATIVE_ZERO_MODE_CUTOFF = 1e-15
 class FullSpectrum:
     """All M eigenvalues in k_N d^(1/2), ascending by real part, with what was requested besides.
 
-    `psi_rotational` and `participation_ratio` are (M,), NaN for the zero modes of spectrum slicing;
+    `psi_rotational`, `participation_ratio` and `peak_grain`, the number of the grain that moves
+    most, are (M,), NaN for the zero modes of spectrum slicing;
     `residual` is max_n ‖J R_n − λ_n R_n‖ with ‖R_n‖ = 1; `projection` (M, F) is R_n · f for the
     given forces; `modes` (M, M) has one column per mode, with rows (x, y[, ℓ]) grain by grain, and
     exists only where the method is "dense". What was not requested is None. `factorisation` names
@@ -48,6 +49,7 @@ class FullSpectrum:
     eigenvalue: Numbers
     psi_rotational: NDArray[np.float64] | None = None
     participation_ratio: NDArray[np.float64] | None = None
+    peak_grain: NDArray[np.float64] | None = None
     residual: float | None = None
     projection: Numbers | None = None
     modes: Numbers | None = None
@@ -121,8 +123,9 @@ def _method(eigenproblem: Eigenproblem, requested: str) -> str:
 
 
 def _from_measures(measures: ModeMeasures, **more: Any) -> FullSpectrum:
-    value, psi, p, residual, projection = measures
-    return FullSpectrum(value, psi, p, float(residual.max(initial=0.0)), projection, **more)
+    value, psi, p, peak, residual, projection = measures
+    worst = float(residual.max(initial=0.0))
+    return FullSpectrum(value, psi, p, peak, worst, projection, **more)
 
 
 def _by_slicing(
@@ -161,4 +164,4 @@ def _positive_modes(
 
 def _zero_modes(count: int, forces: int) -> ModeMeasures:
     unknown, zero = np.full(count, np.nan), np.zeros(count)
-    return ModeMeasures(zero, unknown, unknown, zero, np.zeros((count, forces)))
+    return ModeMeasures(zero, unknown, unknown, unknown, zero, np.zeros((count, forces)))

@@ -3,14 +3,15 @@
     ψ^R_n = Σ_i |R^ℓ_n,i|²,   ψ^T_n = 1 − ψ^R_n
     p_n = (Σ_i |R_n,i|²)² / (N Σ_i |R_n,i|⁴)
 
-and its projection R_n · f on given forces f, from which sums over modes are made
-(`response.mode_sum`).
+the grain that moves most, and its projection R_n · f on given forces f, from which sums over modes
+are made (`response.mode_sum`).
 
 | symbol          | name                | shape  | unit        |
 | --------------- | ------------------- | ------ | ----------- |
 | λ_n             | eigenvalue          | (M,)   | k_N d^(1/2) |
 | ψ^R_n           | psi_rotational      | (M,)   | 1           |
 | p_n             | participation_ratio | (M,)   | 1           |
+| argmax_i ‖R_n,i‖ | peak_grain         | (M,)   | 1           |
 | ‖J R_n − λ R_n‖ | residual            | (M,)   | k_N d^(1/2) |
 | R_n · f         | projection          | (M, F) | that of f   |
 """
@@ -32,6 +33,7 @@ class ModeMeasures(NamedTuple):
     eigenvalue: Numbers
     psi_rotational: NDArray[np.float64]
     participation_ratio: NDArray[np.float64]
+    peak_grain: NDArray[np.float64]
     residual: NDArray[np.float64]
     projection: Numbers
 
@@ -58,6 +60,7 @@ class ModeMeasures(NamedTuple):
             values,
             rotational_fraction(weight),
             participation_ratio(weight),
+            weight.sum(axis=1).argmax(axis=0).astype(float),
             np.linalg.norm(matrix @ vectors - vectors * values, axis=0),
             vectors.T @ forces,
         )

@@ -87,6 +87,9 @@ def rattlers_block(
         row = _modes(found, _number_of_rows(packing, law), kind)
         kept = ("eigenvalue", "psi_rotational", "participation_ratio", "mode_count")
         renamed = {f"{name}_rattlers": row[name] for name in kept if name in row}
+        if found.peak_grain is not None:
+            contacts = _contacts_of(packing, found.peak_grain)
+            renamed["peak_contacts_rattlers"] = _padded(contacts, _number_of_rows(packing, law))
         return renamed | {"converged": True}
 
     config = _config(law, None, kind, choices)
@@ -127,6 +130,18 @@ def _config(
     return {"law": asdict(law), "spectrum": kind, "spectrum_choices": asdict(choices)} | kept
 
 
+def _contacts_of(packing: Packing, grain: np.ndarray) -> np.ndarray:
+    """Numbers of contacts of grains (M,), NaN where the number of the grain is NaN."""
+    ends = np.concatenate([packing.contacts.i, packing.contacts.j])
+    contacts = np.append(np.bincount(ends, minlength=packing.n), np.nan)
+    return contacts[np.nan_to_num(grain, nan=packing.n).astype(int)]
+
+
+def _padded(series: np.ndarray | None, columns: int) -> np.ndarray:
+    """A number per mode, with NaN where there is no mode."""
+    return stack_padded([series], np.nan, min_shape=(columns,))[0]
+
+
 def _number_of_rows(packing: Packing, law: ContactLaw) -> int:
     """Number of rows of J with all grains: no spectrum of the packing is longer."""
     return packing.n * (3 if law.frictional else 2)
@@ -143,17 +158,16 @@ def _method_columns(method: str, factorisation: str) -> dict[str, object]:
 
 def _modes(found: FullSpectrum, columns: int, kind: str) -> dict[str, object]:
     """A row of eigenvalues, with imaginary parts only where J is not symmetric."""
-
-    def padded(series: np.ndarray | None) -> np.ndarray:
-        return stack_padded([series], np.nan, min_shape=(columns,))[0]
-
     values = found.eigenvalue
-    row: dict[str, object] = {"eigenvalue": padded(values.real), "mode_count": len(values)}
+    row: dict[str, object] = {
+        "eigenvalue": _padded(values.real, columns),
+        "mode_count": len(values),
+    }
     if np.iscomplexobj(values):
-        row["eigenvalue_imaginary"] = padded(values.imag)
+        row["eigenvalue_imaginary"] = _padded(values.imag, columns)
     if kind == "modes":
-        row["psi_rotational"] = padded(found.psi_rotational)
-        row["participation_ratio"] = padded(found.participation_ratio)
+        row["psi_rotational"] = _padded(found.psi_rotational, columns)
+        row["participation_ratio"] = _padded(found.participation_ratio, columns)
         row["residual"] = found.residual
     return row | _method_columns(found.method, found.factorisation)
 
@@ -176,7 +190,7 @@ def _unjammed_row(kind: str, edges: np.ndarray, columns: int) -> dict[str, objec
     """The row of an unjammed packing, which has no modes."""
     none = np.zeros(0)
     if kind not in BINNED:
-        row = _modes(FullSpectrum(none, none, none, 0.0, method="auto"), columns, kind)
+        row = _modes(FullSpectrum(none, none, none, none, 0.0, method="auto"), columns, kind)
         return row | ({"g_mode_sum": 0.0} if kind == "modes" else {})
     count, nan = np.zeros(len(edges) - 1, int), np.full(len(edges) - 1, np.nan)
     no_modes = BinnedAverages(edges, count, 0, 0, nan, nan, nan, nan, method="auto")

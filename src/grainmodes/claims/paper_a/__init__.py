@@ -1,4 +1,4 @@
-"""The claims A1 to A19 of paper A (Ishima, Saitoh, Otsuki, Hayakawa), a module per theme."""
+"""The claims A1 to A22 of paper A (Ishima, Saitoh, Otsuki, Hayakawa), a module per theme."""
 
 from __future__ import annotations
 
@@ -33,5 +33,8 @@ CLAIMS: tuple[Claim, ...] = (
     theory.translational_modes_suffice,
     methods.verlet_orders,
     methods.complex_pairs_with_friction,
+    two_bands.translational_band_is_fixed,
+    theory.fields_agree,
+    rotational_band.shape_of_participation,
 )
-"""A1 to A19, in this order."""
+"""A1 to A22, in this order."""

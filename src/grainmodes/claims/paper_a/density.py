@@ -21,7 +21,7 @@ from grainmodes.claims.bands import (
     separable,
 )
 from grainmodes.claims.claim import NotTested, Outcome, claim
-from grainmodes.claims.paper_a.ranges import WEAK_KAPPA
+from grainmodes.claims.paper_a.ranges import PAPER_GRAINS, WEAK_KAPPA, enough_grains
 from grainmodes.claims.part import Part
 from grainmodes.claims.samples import (
     ABOVE_ZERO,
@@ -32,82 +32,108 @@ from grainmodes.claims.samples import (
 )
 from grainmodes.statistics import averages
 from grainmodes.statistics.estimates import Estimate, difference_of_means, mean
+from grainmodes.statistics.shares import share
 
 MAX_LOCALISED_GRAINS = 2.0
 """N p below which a mode counts as localised on one grain."""
 
+MAX_RATTLER_CONTACTS = 2
+"""Z_Th of A: a grain with so few contacts is a rattler."""
+
+RATTLER_NAMES = ("eigenvalue_rattlers", "participation_ratio_rattlers", "peak_contacts_rattlers")
+
+ABOVE_SOUND = 2.0
+"""Lowest ω, in units of the lowest sound wave of the smaller box, at which two N are compared."""
+
 
 @claim("A13", unit="1")
 def localised_rattlers(ensemble) -> Outcome:
-    """Modes of rattlers have p ≈ 1/N; ωt_0 ≈ 1e-5 at k_T/k_N = 1e-8 and 1e-3 at 1e-4 (Fig. 14).
+    """Modes with p ≈ 1/N lie at ωt_0 ≈ 1e-5 for k_T/k_N = 1e-8, 1e-3 for 1e-4; rattlers (Fig. 14).
 
-    Both frequencies are ω_R / 10. The modes of rattlers are those that a spectrum has only if its
-    rattlers are kept. The measured number is the share of them with N p < 2 and ω within half a
-    decade of ω_R / 10, for all φ of a seed together.
+    Both frequencies are ω_R / 10. Such modes have N p < 2 and ω within half a decade of ω_R / 10,
+    in spectra with the rattlers kept, at all φ. The first number is how many there are per 4096
+    grains, A's N. The second is the share of them in which the grain that moves most has at most
+    two contacts, and is a rattler in A's sense.
 
-    Asked of: every point of the ensemble.
+    Asked of: k_T/k_N in 1e-8 ... 1e-4, spectra with rattlers kept.
 
-    Criterion: More than one half of the modes of rattlers have N p < 2 and ω near ω_R / 10.
+    Criterion: There is more than one such mode in 4096 grains, and more than one half of them sit
+    on grains with at most two contacts.
     """
-    names = ("eigenvalue_rattlers", "participation_ratio_rattlers", "mode_count_rattlers")
-    samples = best_sampled(ensemble, *names, "mode_count")
-    parts, zero, added = [], 0.0, 0.0
-    for kappa in samples.kappas(names[0], low=WEAK_KAPPA, high=1e-4):
-        near, vanishing, of_rattlers = np.nansum(
-            [_rattler_modes(samples, phi, kappa) for phi in samples.phis(names[0], kappa)], axis=0
-        )
-        share = np.divide(near, of_rattlers, np.full_like(near, np.nan), where=of_rattlers > 0)
-        parts.append(Part(f"share at {label(kappa=kappa)}", mean(share), 0.5))
-        zero, added = zero + vanishing.sum(), added + of_rattlers.sum()
-    note = f"Of {added:.0f} modes of rattlers, {zero:.0f} are zero modes, whose p is not defined."
-    return Outcome({"rattlers": parts}, note)
+    samples = best_sampled(ensemble, *RATTLER_NAMES)
+    numbers, shares, zero = [], [], 0
+    for kappa in samples.kappas(RATTLER_NAMES[0], low=WEAK_KAPPA, high=1e-4):
+        phis = samples.phis(RATTLER_NAMES[0], kappa)
+        rows = [_localised(samples, phi, kappa) for phi in phis]
+        per_sample, weak, free = (np.concatenate(column) for column in zip(*rows, strict=True))
+        number = mean(per_sample * PAPER_GRAINS / samples.n)
+        numbers.append(Part(f"number at {label(kappa=kappa)}", number, low=1.0))
+        shares.append(Part(f"share on rattlers at {label(kappa=kappa)}", share(weak), low=0.5))
+        zero += int(np.nansum(free))
+    note = f"Rattlers without a contact have {zero} zero modes, whose p is not defined."
+    return Outcome({"spectra with rattlers kept": [*numbers, *shares]}, note)
 
 
-def _rattler_modes(samples: Samples, phi: float, kappa: float) -> np.ndarray:
-    """Numbers (3, S) of localised modes near ω_R / 10, of zero modes, and of modes of rattlers."""
-    eigenvalue, participation, count = (
-        samples.values(f"{name}_rattlers", phi, kappa)
-        for name in ("eigenvalue", "participation_ratio", "mode_count")
-    )
+def _localised(
+    samples: Samples, phi: float, kappa: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Numbers (S,) of localised modes near ω_R / 10, for each of them whether its grain is a
+    rattler, and the numbers (S,) of zero modes beyond the translations."""
+    eigenvalue, ratio, contacts = (samples.values(name, phi, kappa) for name in RATTLER_NAMES)
     found = averages.frequencies(eigenvalue)
-    decades = np.abs(np.log10(found.frequency / np.sqrt(kappa)) + 1.0)
-    near = ((decades < 0.5) & (samples.n * participation < MAX_LOCALISED_GRAINS)).sum(axis=1)
-    zero = np.maximum(found.zero - averages.TRANSLATIONS, 0)
-    return np.array([near, zero, count - samples.values("mode_count", phi, kappa)])
+    with np.errstate(invalid="ignore"):
+        decades = np.abs(np.log10(found.frequency / np.sqrt(kappa)) + 1.0)
+        near = (decades < 0.5) & (samples.n * ratio < MAX_LOCALISED_GRAINS)
+        weak = np.where(np.isfinite(contacts), contacts <= MAX_RATTLER_CONTACTS, np.nan)
+    known = np.isfinite(eigenvalue).any(axis=1)
+    free = np.maximum(found.zero - averages.TRANSLATIONS, 0)
+    return np.where(known, near.sum(axis=1), np.nan), weak[near], np.where(known, free, 0)
 
 
 @claim("A14", unit="1")
 def independent_of_size(ensemble) -> Outcome:
     """D does not depend on N (Fig. 15).
 
-    These are the differences of log ω between the smallest and the largest N at nine quantiles
-    (0.1 ... 0.9) of each band, at the k_T/k_N closest to 1e-8.
+    These are the differences of log ω between the two largest N at nine quantiles (0.1 ... 0.9) of
+    each band, at the k_T/k_N closest to 1e-8. The lowest translational modes are sound waves of the
+    box, at frequencies that its size sets: modes below twice the lowest of the smaller box are left
+    out at both N.
 
-    Asked of: every point of the ensemble.
+    Asked of: the two largest N with spectra at one point; both N ≥ 256.
 
     Criterion: The differences of log ω at nine quantiles of each band are within ±5 %.
     """
-    by_size = samples_by_size(separable(ensemble), SEPARABLE)
-    common = set.intersection(
-        *(set(s.points(SEPARABLE, ABOVE_ZERO)) for s in (by_size[0], by_size[-1]))
-    )
+    by_size = samples_by_size(separable(ensemble), SEPARABLE)[-2:]
+    common = set.intersection(*(set(s.points(SEPARABLE, ABOVE_ZERO)) for s in by_size))
     if len(by_size) < 2 or not common:
         raise NotTested("spectra of two N at one φ and k_T")
     point = max(common, key=lambda point: (point[0], -abs(np.log(point[1] / WEAK_KAPPA))))
-    small, large = (modes(samples, *point) for samples in (by_size[0], by_size[-1]))
+    small, large = (modes(samples, *point) for samples in by_size)
+    lowest = ABOVE_SOUND * np.nanmean(np.nanmin(small.translational[_known(small)], axis=1))
+    bands = {
+        "rotational": (small.rotational, large.rotational),
+        "translational": [
+            np.where(size.translational > lowest, size.translational, np.nan)
+            for size in (small, large)
+        ],
+    }
+    needs = enough_grains(by_size[0].n)
     parts = [
-        Part(f"{band} ω at quantile {quantile:.1f}, {label(*point)}", difference, -0.05, 0.05)
-        for band in ("rotational", "translational")
-        for quantile, difference in zip(QUANTILES, _differences(small, large, band), strict=True)
+        Part(f"{name} ω at quantile {q:.1f}, {label(*point)}", apart, -0.05, 0.05, needs=needs)
+        for name, pair in bands.items()
+        for q, apart in zip(QUANTILES, _differences(*pair), strict=True)
     ]
-    return Outcome(
-        {"two N": parts}, f"The systems have N = {by_size[0].n} and N = {by_size[-1].n}."
-    )
+    note = f"The systems have N = {by_size[0].n} and N = {by_size[1].n}."
+    return Outcome({"spectra of two N": parts}, note)
 
 
-def _differences(small: Modes, large: Modes, band: str) -> list[Estimate]:
+def _known(found: Modes) -> np.ndarray:
+    return np.isfinite(found.translational).any(axis=1)
+
+
+def _differences(small: np.ndarray, large: np.ndarray) -> list[Estimate]:
     """log omega of the large minus that of the small system at `QUANTILES`; they share no seed."""
-    pairs = zip(*(log_quantiles(getattr(size, band)).T for size in (small, large)), strict=True)
+    pairs = zip(log_quantiles(small).T, log_quantiles(large).T, strict=True)
     return [difference_of_means(*pair) for pair in pairs]
 
 
@@ -120,7 +146,7 @@ def towards_jamming(ensemble) -> Outcome:
     the measured number is the width at the lowest φ minus that at the highest. Both are paired by
     seed, at the smallest k_T.
 
-    Asked of: every point of the ensemble.
+    Asked of: the lowest and the highest φ with spectra, at one k_T > 0.
 
     Criterion: The median rotational ω falls, and the width of the translational band grows.
     """

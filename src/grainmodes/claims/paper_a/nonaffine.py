@@ -13,40 +13,44 @@ from __future__ import annotations
 import numpy as np
 
 from grainmodes.claims.claim import Outcome, claim
+from grainmodes.claims.crossings import zero_crossings
 from grainmodes.claims.part import Part
 from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled, label
-from grainmodes.statistics.estimates import Estimate, crossing, mean, relative_difference
+from grainmodes.statistics.estimates import Estimate, mean, relative_difference
 
-CROSSING_RANGE = (1.6, 2.5)
-"""Range of k_T/k_N that is equal to 2 on A's grid, on which the neighbours of 2 are 1 and 5."""
+BELOW, ABOVE = 1.0, 5.0
+"""The neighbours of k_T/k_N = 2 on A's grid, between which G_NA changes its sign."""
 
 
 @claim("A6", unit="1")
 def nonaffine_sign_change(ensemble) -> Outcome:
     """G_NA is negative for k_T/k_N < 2 and positive above, and |G_NA| grows with φ (Fig. 6).
 
-    The crossing is the k_T/k_N at which the mean of g_nonaffine (unloaded step) rises through 0, at
-    every φ, interpolated linearly in log k_T, with its error from the jackknife over seeds. The
-    growth is the relative difference of |G_NA| at the highest and the lowest φ, at the smallest and
-    at the largest k_T, paired by seed.
+    These are the means of g_nonaffine (unloaded step) at the largest k_T/k_N ≤ 1 and at the
+    smallest ≥ 5: A's grid has 1, 2 and 5, so that its figure tells nothing closer about where the
+    sign changes. The k_T/k_N of the change, κ*, is reported and is claim G1. The growth is the
+    relative difference of |G_NA| at the highest and the lowest φ, at the smallest and at the
+    largest k_T, paired by seed.
 
-    Asked of: every point of the ensemble.
+    Asked of: every φ with a k_T/k_N ≤ 1 and one ≥ 5; two φ.
 
-    Criterion: The crossing lies within 1.6 ... 2.5 at every φ, and |G_NA| is larger at the highest
-    φ than at the lowest.
+    Criterion: G_NA is below 0 at k_T/k_N ≤ 1 and above 0 at k_T/k_N ≥ 5, at every φ, and |G_NA| is
+    larger at the highest φ than at the lowest.
     """
     samples = best_sampled(ensemble, "g_nonaffine", "g_nonaffine_loaded")
     phis = samples.phis("g_nonaffine")
-    zeros = {phi: _zero(samples, phi) for phi in phis if _ends_around_two(samples, phi)}
+    weak = {phi: samples.kappas("g_nonaffine", phi, ABOVE_ZERO, BELOW) for phi in phis}
+    strong = {phi: samples.kappas("g_nonaffine", phi, ABOVE) for phi in phis}
+    below = [(phi, kappas[-1]) for phi, kappas in weak.items() if kappas]
+    above = [(phi, kappas[0]) for phi, kappas in strong.items() if kappas]
     parts = {
-        "k_T/k_N on both sides of 2": [
-            Part(f"crossing at {label(phi)}", zero, *CROSSING_RANGE) for phi, zero in zeros.items()
-        ],
+        "k_T/k_N ≤ 1": [Part(label(*p), _mean(samples, *p), high=0.0) for p in below],
+        "k_T/k_N ≥ 5": [Part(label(*p), _mean(samples, *p), low=0.0) for p in above],
         "two area fractions": [
             _growth(samples, kappa, phis) for kappa in _ends(samples, phis) if len(phis) > 1
         ],
     }
-    return Outcome(parts, f"{_crossings(zeros)} {_loading(samples)}")
+    return Outcome(parts, f"{_crossings(samples)} {_loading(samples)}")
 
 
 def _ends(samples: Samples, phis: list[float]) -> list[float]:
@@ -55,15 +59,8 @@ def _ends(samples: Samples, phis: list[float]) -> list[float]:
     return [kappas[0], kappas[-1]] if kappas else []
 
 
-def _ends_around_two(samples: Samples, phi: float) -> bool:
-    kappas = samples.kappas("g_nonaffine", phi, ABOVE_ZERO)
-    return bool(kappas) and kappas[0] < CROSSING_RANGE[0] and kappas[-1] > CROSSING_RANGE[1]
-
-
-def _zero(samples: Samples, phi: float) -> Estimate:
-    kappas = samples.kappas("g_nonaffine", phi, ABOVE_ZERO)
-    rows = np.array([samples.values("g_nonaffine", phi, kappa) for kappa in kappas])
-    return crossing(np.array(kappas), rows.T)
+def _mean(samples: Samples, phi: float, kappa: float) -> Estimate:
+    return mean(samples.values("g_nonaffine", phi, kappa))
 
 
 def _growth(samples: Samples, kappa: float, phis: list[float]) -> Part:
@@ -71,9 +68,10 @@ def _growth(samples: Samples, kappa: float, phis: list[float]) -> Part:
     return Part(f"growth at {label(kappa=kappa)}", relative_difference(high, low), 0.0)
 
 
-def _crossings(zeros: dict[float, Estimate]) -> str:
-    listed = ", ".join(f"{zero} at {label(phi)}" for phi, zero in zeros.items())
-    return f"The unloaded G_NA crosses 0 at κ = {listed}."
+def _crossings(samples: Samples) -> str:
+    found = zero_crossings(samples)
+    listed = ", ".join(f"{zero} at {label(phi)}" for phi, zero in found.items())
+    return f"The unloaded G_NA crosses 0 at κ* = {listed}." if found else ""
 
 
 def _loading(samples: Samples) -> str:

@@ -13,3 +13,17 @@ WEAK_KAPPA = 1e-8
 
 TOLERANCE = 0.01
 """Relative difference of two moduli that is not visible in a figure of A."""
+
+MIN_PHI = 0.85
+"""φ below which single packings decide a mean: their G is near 0, or below."""
+
+MIN_GRAINS = 256
+"""N below which single packings decide a mean at every φ."""
+
+PAPER_GRAINS = 4096
+"""N of A's spectra."""
+
+
+def enough_grains(n: int, needed: int = MIN_GRAINS) -> str:
+    """What is needed where a system has too few grains; empty where it has enough."""
+    return f"N ≥ {needed}" if n < needed else ""
