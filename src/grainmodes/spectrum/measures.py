@@ -60,7 +60,7 @@ class ModeMeasures(NamedTuple):
             values,
             rotational_fraction(weight),
             participation_ratio(weight),
-            weight.sum(axis=1).argmax(axis=0).astype(float),
+            peak_grain(weight),
             np.linalg.norm(matrix @ vectors - vectors * values, axis=0),
             vectors.T @ forces,
         )
@@ -81,6 +81,12 @@ class ModeMeasures(NamedTuple):
 def rotational_fraction(weight: NDArray[np.float64]) -> NDArray[np.float64]:
     """ψ^R (M,) from |R|² of shape (N, k, M): A (50); zero where grains do not rotate (k = 2)."""
     return weight[:, 2].sum(axis=0) if weight.shape[1] == 3 else np.zeros(weight.shape[2])
+
+
+def peak_grain(weight: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The number of the grain that moves most (M,), from |R|² of shape (N, k, M)."""
+    grain = weight.sum(axis=1)
+    return grain.argmax(axis=0).astype(float) if grain.size else np.zeros(grain.shape[1])
 
 
 def participation_ratio(weight: NDArray[np.float64]) -> NDArray[np.float64]:

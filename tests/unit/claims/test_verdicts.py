@@ -94,7 +94,7 @@ def test_an_ensemble_of_few_points_has_no_verdict_against_a_claim(grid):
 
 def test_points_that_were_not_computed_change_no_verdict():
     ensemble = claim_fixtures.ensemble()
-    larger = ensemble.reindex(n=[256, 272, 288], phi=[0.86, 0.87, 0.88, 0.90])
+    larger = ensemble.reindex(n=[256, 272, 288, 128], phi=[0.86, 0.87, 0.88, 0.90])
     assert {v.verdict for v in check(larger, CLAIMS)} == {HOLDS}
 
 
@@ -137,12 +137,12 @@ def test_a_gap_in_a_box_smaller_than_the_papers_is_not_comparable():
     no_overlap(ensemble)
     found = {n: (v.verdict, v.needed) for n, v in verdicts(ensemble).items() if v.verdict != HOLDS}
     assert found == {"A8": (NOT_COMPARABLE, "N ≥ 4096")}
-    ensemble = ensemble.assign_coords(n=[256, 4096])
+    ensemble = ensemble.assign_coords(n=[256, 4096, 128])
     assert verdicts(ensemble)["A8"].verdict == CONTRADICTED
 
 
 def test_small_systems_are_not_compared_where_single_packings_decide():
-    found = verdicts(claim_fixtures.ensemble().assign_coords(n=[32, 64]))
+    found = verdicts(claim_fixtures.ensemble().assign_coords(n=[32, 64, 128]))
     needed = {name: v.needed for name, v in found.items() if v.verdict == NOT_COMPARABLE}
     assert needed == dict.fromkeys(("A3", "A14", "A16"), "N ≥ 256")
 

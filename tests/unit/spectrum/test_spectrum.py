@@ -19,6 +19,7 @@ from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.spectrum import packing_spectrum
 from grainmodes.spectrum.measures import participation_ratio, rotational_fraction
 
@@ -134,3 +135,16 @@ def test_participation_of_one_grain_and_of_all():
     assert rotational_fraction(one) == 1.0
     assert rotational_fraction(every) == pytest.approx(1 / 3)
     assert rotational_fraction(one[:, :2]) == 0.0
+
+
+def test_the_grain_that_moves_most_is_named_by_both_methods():
+    packing, interaction = (
+        reference("hertz_n64_phi0.900_seed1")[1],
+        elastic("hertz_n64_phi0.900_seed1", 1e-4),
+    )
+    dense = packing_spectrum(packing, interaction)
+    sliced = packing_spectrum(packing, interaction, choices=SpectrumChoices(method="slicing"))
+    grains = np.abs(dense.modes.reshape(-1, 3, len(dense.eigenvalue))) ** 2
+    expected = grains.sum(axis=1).argmax(axis=0)
+    np.testing.assert_array_equal(dense.peak_grain, expected)
+    np.testing.assert_array_equal(sliced.peak_grain[2:], expected[2:])
