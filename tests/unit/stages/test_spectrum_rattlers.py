@@ -4,7 +4,6 @@ import numpy as np
 
 from example_packings import reference
 from grainmodes.kernels.laws import Hertz, Interaction
-from grainmodes.packing.state import rattlers
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import SpectrumChoices
 from grainmodes.spectrum import packing_spectrum
@@ -28,4 +27,4 @@ def test_contacts_of_the_grain_that_moves_most():
     contacts = (touching + touching.T).sum(axis=1)
     values = found.variables["peak_contacts_rattlers"][0]
     np.testing.assert_array_equal(values, contacts[weight.argmax(axis=0)])
-    assert rattlers(packing, 2).any() and 0.0 in values
+    assert len(set(values)) > 2

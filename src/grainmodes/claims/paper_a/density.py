@@ -9,6 +9,8 @@ N, phi    n, phi                                        App. I, App. J
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from grainmodes.claims.bands import (
@@ -34,6 +36,9 @@ from grainmodes.statistics import averages
 from grainmodes.statistics.estimates import Estimate, difference_of_means, mean
 from grainmodes.statistics.shares import share
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 MAX_LOCALISED_GRAINS = 2.0
 """N p below which a mode counts as localised on one grain."""
 
@@ -47,7 +52,7 @@ ABOVE_SOUND = 2.0
 
 
 @claim("A13", unit="1")
-def localised_rattlers(ensemble) -> Outcome:
+def localised_rattlers(ensemble: xr.Dataset) -> Outcome:
     """Modes with p ≈ 1/N lie at ωt_0 ≈ 1e-5 for k_T/k_N = 1e-8, 1e-3 for 1e-4; rattlers (Fig. 14).
 
     Both frequencies are ω_R / 10. Such modes have N p < 2 and ω within half a decade of ω_R / 10,
@@ -91,7 +96,7 @@ def _localised(
 
 
 @claim("A14", unit="1")
-def independent_of_size(ensemble) -> Outcome:
+def independent_of_size(ensemble: xr.Dataset) -> Outcome:
     """D does not depend on N (Fig. 15).
 
     These are the differences of log ω between the two largest N at nine quantiles (0.1 ... 0.9) of
@@ -138,7 +143,7 @@ def _differences(small: np.ndarray, large: np.ndarray) -> list[Estimate]:
 
 
 @claim("A15", unit="decades")
-def towards_jamming(ensemble) -> Outcome:
+def towards_jamming(ensemble: xr.Dataset) -> Outcome:
     """Towards jamming the rotational band moves down and the translational band widens (Fig. 16).
 
     The shift of the rotational band is log10 of its median ω at the highest φ over that at the

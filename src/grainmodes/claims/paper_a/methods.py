@@ -9,6 +9,8 @@ M⁻¹J    complex_pairs_at_rest of grains compressed with friction   footnote 1
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from grainmodes.claims.bands import spectrum_at
@@ -19,6 +21,9 @@ from grainmodes.statistics import averages
 from grainmodes.statistics.binning import occupation
 from grainmodes.statistics.estimates import Estimate, jackknife, mean
 from grainmodes.statistics.shares import share
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 DENSITY_TOLERANCE = 0.05
 """Area between two densities of states, over the area below one, that no figure shows."""
@@ -31,7 +36,7 @@ ORDERS = {"position": 2.0, "velocity": 1.0}
 
 
 @claim("A12", unit="1")
-def hessian_density(ensemble) -> Outcome:
+def hessian_density(ensemble: xr.Dataset) -> Outcome:
     """The density of states D of the Jacobian equals that of the effective Hessian, D_H (Fig. 12).
 
     In A's states, s = 0, H equals J entry by entry, so that the densities are the same by
@@ -51,7 +56,7 @@ def hessian_density(ensemble) -> Outcome:
     return Outcome(groups, f"At s = 0 H equals J entry by entry. {note}".strip())
 
 
-def _under_shear(ensemble) -> list[Part]:
+def _under_shear(ensemble: xr.Dataset) -> list[Part]:
     if "hessian_shift_sheared" not in ensemble:
         return []
     samples = best_sampled(ensemble, "hessian_shift_sheared")
@@ -63,7 +68,7 @@ def _under_shear(ensemble) -> list[Part]:
     ]
 
 
-def _densities(ensemble) -> tuple[list[Part], str]:
+def _densities(ensemble: xr.Dataset) -> tuple[list[Part], str]:
     samples = best_sampled(ensemble, "bin_count_hessian", "bin_edge")
     points = samples.points("bin_count_hessian")
     parts = [
@@ -102,7 +107,7 @@ def _counts(samples: Samples, point: tuple, edges: np.ndarray) -> np.ndarray:
 
 
 @claim("A18", unit="1")
-def verlet_orders(ensemble) -> Outcome:
+def verlet_orders(ensemble: xr.Dataset) -> Outcome:
     """Velocity Verlet with forces that depend on velocity is of order 2 in q and 1 in q̇ (App. B).
 
     These are the measured orders at every point, averaged over samples.
@@ -127,7 +132,7 @@ def verlet_orders(ensemble) -> Outcome:
 
 
 @claim("A19", unit="1")
-def complex_pairs_with_friction(ensemble) -> Outcome:
+def complex_pairs_with_friction(ensemble: xr.Dataset) -> Outcome:
     """States compressed with friction have complex pairs of eigenvalues of M⁻¹J (footnote 1).
 
     This is the share of the seeds of which at least half the jammed states compressed with friction

@@ -10,6 +10,8 @@ Every comparison is paired, because the packings of one seed are the same at all
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from grainmodes.claims.claim import Outcome, claim
@@ -18,12 +20,15 @@ from grainmodes.claims.part import Part
 from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled, label
 from grainmodes.statistics.estimates import Estimate, mean, relative_difference
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 BELOW, ABOVE = 1.0, 5.0
 """The neighbours of k_T/k_N = 2 on A's grid, between which G_NA changes its sign."""
 
 
 @claim("A6", unit="1")
-def nonaffine_sign_change(ensemble) -> Outcome:
+def nonaffine_sign_change(ensemble: xr.Dataset) -> Outcome:
     """G_NA is negative for k_T/k_N < 2 and positive above, and |G_NA| grows with φ (Fig. 6).
 
     These are the means of g_nonaffine (unloaded step) at the largest k_T/k_N ≤ 1 and at the

@@ -11,6 +11,8 @@ over jammed samples.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from grainmodes.claims.claim import NotTested, Outcome, claim
@@ -32,6 +34,9 @@ from grainmodes.statistics.estimates import (
 )
 from grainmodes.statistics.medians import median_relative_difference
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 LIMIT_TOLERANCE = 0.001
 """Largest relative difference to the frictionless G at which its limit counts as reached."""
 
@@ -40,7 +45,7 @@ MIN_AREA_FRACTIONS = 3
 
 
 @claim("A2", unit="1")
-def not_proportional_to_distance(ensemble) -> Outcome:
+def not_proportional_to_distance(ensemble: xr.Dataset) -> Outcome:
     """G is not proportional to φ - φ_c at large k_T/k_N (Sec. IV A).
 
     The exponent β of G ∝ (φ - φ_c)^β is the slope of log G of each seed, with φ_c of this seed.
@@ -80,7 +85,7 @@ def _slope(x: np.ndarray, y: np.ndarray) -> float:
 
 
 @claim("A3", unit="1")
-def flat_at_small_stiffness(ensemble) -> Outcome:
+def flat_at_small_stiffness(ensemble: xr.Dataset) -> Outcome:
     """G hardly depends on k_T/k_N for k_T/k_N ≤ 1e-4 (Fig. 5).
 
     This is the median over the seeds of the relative difference of G to that at the smallest
@@ -93,24 +98,23 @@ def flat_at_small_stiffness(ensemble) -> Outcome:
     samples = best_sampled(ensemble, "g")
     parts, errors = [], {}
     for phi in samples.phis("g"):
-        if phi < MIN_PHI:
+        kappas = samples.kappas("g", phi, ABOVE_ZERO, SMALL_KAPPA)
+        if phi < MIN_PHI or len(kappas) < 2:
             continue
-        lowest, *others = samples.kappas("g", phi, ABOVE_ZERO, SMALL_KAPPA) or [None]
-        reference = samples.values("g", phi, lowest) if others else None
-        for kappa in others:
+        reference = samples.values("g", phi, kappas[0])
+        for kappa in kappas[1:]:
             difference = median_relative_difference(samples.values("g", phi, kappa), reference)
             limits = (-TOLERANCE, TOLERANCE)
             needs = enough_grains(samples.n)
             parts.append(Part(label(phi, kappa), difference, *limits, needs=needs))
-        if others:
-            errors[phi] = mean(reference).error / np.nanmean(reference)
+        errors[phi] = mean(reference).error / np.nanmean(reference)
     listed = ", ".join(f"{error:.2g} at {label(phi)}" for phi, error in errors.items())
     note = f"For comparison, the relative standard error of G itself is {listed}."
     return Outcome({"two k_T/k_N ≤ 1e-4 at φ ≥ 0.85": parts}, note)
 
 
 @claim("A4", unit="1")
-def frictionless_limit(ensemble) -> Outcome:
+def frictionless_limit(ensemble: xr.Dataset) -> Outcome:
     """G tends to its frictionless value as k_T → 0, without a jump (Sec. IV A).
 
     This is the relative difference of G at the smallest k_T > 0 and at k_T = 0, paired by seed, at
@@ -151,7 +155,7 @@ def _to_frictionless(samples: Samples, phi: float, kappa: float) -> Estimate:
 
 
 @claim("A5", unit="1")
-def no_factorisation(ensemble) -> Outcome:
+def no_factorisation(ensemble: xr.Dataset) -> Outcome:
     """G(φ, k_T/k_N) is not a product G_0(φ) 𝒢(k_T/k_N) at large k_T/k_N (Sec. IV A, footnote 2).
 
     This is the difference of log[G(κ)/G(0)] between the lowest and the highest φ ≥ 0.85, with

@@ -11,6 +11,8 @@ Positions are measured in each sample; means and errors are those over the sampl
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from grainmodes.claims.bands import SEPARABLE, Modes, frictionless, per_sample
@@ -21,6 +23,9 @@ from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled, label
 from grainmodes.statistics import averages
 from grainmodes.statistics.binning import occupation
 from grainmodes.statistics.estimates import Estimate, jackknife, mean, relative_difference
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 MAX_SCALING_KAPPA = 0.01
 """Largest k_T/k_N for which A finds omega_R D to collapse."""
@@ -33,7 +38,7 @@ SMOOTHING_WIDTH = 0.1
 
 
 @claim("A9", unit="1")
-def peak_and_collapse(ensemble) -> Outcome:
+def peak_and_collapse(ensemble: xr.Dataset) -> Outcome:
     """D peaks at ω ≃ ω_R, and ω_R D collapses in 0.1 < ω/ω_R < 1 for k_T/k_N ≤ 0.01 (Fig. 10).
 
     The peak is the maximum over 0.1 < ω/ω_R < 2 of D of a sample, smoothed by 0.1. On A's axis of
@@ -111,7 +116,7 @@ def _chi_squared(counts: np.ndarray, reference: np.ndarray) -> float:
 
 
 @claim("A10", unit="1")
-def area_of_rotational_band(ensemble) -> Outcome:
+def area_of_rotational_band(ensemble: xr.Dataset) -> Outcome:
     """The integral of D over Region I does not depend on k_T/k_N (footnote 3).
 
     This is the relative difference of the number of rotational modes (ψ^R > 1/2) to that at the
@@ -161,7 +166,7 @@ def _rotational_count(found: Modes) -> np.ndarray:
 
 
 @claim("A22", unit="1")
-def shape_of_participation(ensemble) -> Outcome:
+def shape_of_participation(ensemble: xr.Dataset) -> Outcome:
     """The band of p(ω) moves up with k_T/k_N and keeps its shape (App. E, Fig. 14).
 
     This is the mean of |p(ω/ω_R) - p'(ω/ω_R)| over nine bins of 0.1 < ω/ω_R < 1, over the mean of

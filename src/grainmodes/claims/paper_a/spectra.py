@@ -5,14 +5,19 @@ A shows them at φ = 0.90, its largest φ. Here it is the largest φ of the ense
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from grainmodes.claims.bands import SEPARABLE, Modes, modes, separable
 from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 REGION_BOUNDARY = 2.0
 """omega / omega_R at the boundary between Regions I and II."""
 
 
-def friction_spectra(ensemble) -> tuple[Samples, float, dict[float, Modes]]:
+def friction_spectra(ensemble: xr.Dataset) -> tuple[Samples, float, dict[float, Modes]]:
     """The samples of the N with most spectra, its largest φ, and k_T/k_N > 0 → modes there."""
     samples = best_sampled(separable(ensemble), SEPARABLE)
     phi = samples.phis(SEPARABLE)[-1]

@@ -12,6 +12,8 @@ Both come from the same packings, seed by seed; an average here runs over jammed
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from grainmodes.claims.claim import Outcome, claim
@@ -27,9 +29,12 @@ from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled, label
 from grainmodes.statistics.estimates import Estimate, relative_difference
 from grainmodes.statistics.medians import median, median_relative_difference
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 
 @claim("A1", unit="1")
-def theory_is_simulation(ensemble) -> Outcome:
+def theory_is_simulation(ensemble: xr.Dataset) -> Outcome:
     """The rigidity G of the theory equals that of the simulation at all φ and k_T/k_N (Fig. 4).
 
     This is the relative difference of g_simulated and g, paired by seed, at every point. The
@@ -62,7 +67,7 @@ def theory_is_simulation(ensemble) -> Outcome:
     return Outcome(groups, _contact_changes(samples))
 
 
-def _by_damped_dynamics(ensemble) -> list[Part]:
+def _by_damped_dynamics(ensemble: xr.Dataset) -> list[Part]:
     """Parts on steps that A's dynamics relaxed, at the N that has them."""
     if "g_forward_damped" not in ensemble:
         return []
@@ -97,7 +102,7 @@ def _contact_changes(samples: Samples) -> str:
 
 
 @claim("A16", unit="1")
-def independent_of_strain(ensemble) -> Outcome:
+def independent_of_strain(ensemble: xr.Dataset) -> Outcome:
     """The simulated G does not depend on the step strain in 1e-6 ... 1e-4 (Sec. II).
 
     This is the median over the seeds of the relative difference of G from forward steps to that of
@@ -129,7 +134,7 @@ def independent_of_strain(ensemble) -> Outcome:
 
 
 @claim("A17", unit="1")
-def translational_modes_suffice(ensemble) -> Outcome:
+def translational_modes_suffice(ensemble: xr.Dataset) -> Outcome:
     """The translational modes alone give G at small k_T/k_N (abstract).
 
     This is the relative difference of the sum over the modes with ψ^T > 1/2 and g, paired by seed,
@@ -157,7 +162,7 @@ def translational_modes_suffice(ensemble) -> Outcome:
 
 
 @claim("A21", unit="1")
-def fields_agree(ensemble) -> Outcome:
+def fields_agree(ensemble: xr.Dataset) -> Outcome:
     """The non-affine displacements of the theory are those of the simulation (Fig. 3).
 
     This is the norm of the difference of the two fields over that of the theory, all grains and

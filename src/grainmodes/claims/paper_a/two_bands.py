@@ -13,6 +13,8 @@ Positions are measured in each sample; means and errors are those over the sampl
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from grainmodes.claims.bands import (
@@ -32,6 +34,9 @@ from grainmodes.claims.part import Part
 from grainmodes.claims.samples import ABOVE_ZERO, best_sampled, label
 from grainmodes.statistics.estimates import Estimate, mean
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 MIN_PURITY = 0.9
 """Mean psi above which a region counts as purely rotational or translational."""
 
@@ -40,7 +45,7 @@ SEPARATE_RANGE, OVERLAP_RANGE, MERGED_RANGE = (1e-10, 1e-8), (1e-6, 1e-2), (1.0,
 
 
 @claim("A7", unit="1")
-def pure_regions(ensemble) -> Outcome:
+def pure_regions(ensemble: xr.Dataset) -> Outcome:
     """Region I is rotational for k_T/k_N ≤ 1e-4, and Region II is translational for k_T/k_N < 1.
 
     These are the mean of ψ^R over the modes with ω < 2 ω_R, and of ψ^T over those with ω > 2 ω_R.
@@ -71,7 +76,7 @@ def _purity(found: Modes, kappa: float, rotational: bool) -> Estimate:
 
 
 @claim("A8", unit="1")
-def gap_overlap_merger(ensemble) -> Outcome:
+def gap_overlap_merger(ensemble: xr.Dataset) -> Outcome:
     """The bands separate at k_T/k_N = 1e-10 ... 1e-8, overlap at 1e-6 ... 1e-2 and merge from 1 on.
 
     The gap is log10 of the lowest translational ω over the highest rotational ω of a sample, in
@@ -126,7 +131,7 @@ def _gap_and_size(n: int, gaps: dict[float, Estimate]) -> str:
 
 
 @claim("A11", unit="1")
-def frictionless_band(ensemble) -> Outcome:
+def frictionless_band(ensemble: xr.Dataset) -> Outcome:
     """At k_T/k_N = 1e-8 the translational band is the spectrum of frictionless grains (Fig. 11).
 
     This is the mean over the modes of |ω/ω' - 1| of the translational ω and the ω' at k_T = 0 with
@@ -163,7 +168,7 @@ def _shift(band: np.ndarray, reference: np.ndarray) -> float:
 
 
 @claim("A20", unit="1")
-def translational_band_is_fixed(ensemble) -> Outcome:
+def translational_band_is_fixed(ensemble: xr.Dataset) -> Outcome:
     """D of Region II is almost independent of k_T/k_N for k_T/k_N ≤ 1e-2 (Fig. 9).
 
     These are the differences of log ω at nine quantiles (0.1 ... 0.9) of the translational band to
