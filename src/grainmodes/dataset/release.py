@@ -214,7 +214,7 @@ NAMES = {
         FOLLOWED, "f8", SQUARED_RATE, "imaginary part of the released pair; 0: it is dead"
     ),
     "release_death_time": Variable(
-        STATE, "f8", TIME, "time from which on the released pair is dead; NaN: it survives"
+        STATE, "f8", TIME, "time at which the released pair has died; NaN: it survives"
     ),
     # the pair along the shear
     "release_path_strain": Variable(

@@ -136,12 +136,11 @@ def _followed(run: ReleaseRun) -> dict[str, object]:
     if run.pair is None:
         return {}
     steps, imaginary = (np.array(values) for values in zip(*run.pair.imaginary, strict=True))
-    time, alive = steps * run.choices.time_step, np.flatnonzero(imaginary > 0.0)
-    dead = int(alive[-1]) + 1 if len(alive) else 0
+    death = run.pair.death_step
     return {
-        "release_pair_time": time,
+        "release_pair_time": steps * run.choices.time_step,
         "release_pair_imaginary": imaginary,
-        "release_death_time": time[dead] if dead < len(time) else np.nan,
+        "release_death_time": np.nan if death is None else death * run.choices.time_step,
     }
 
 

@@ -163,8 +163,9 @@ def death_of_the_pair(ensemble: xr.Dataset) -> Outcome:
     """The released pair dies when its growth ends (Sec. VI B (3), inset of Fig. 8).
 
     The pair is followed along the run without damping by its invariant subspace. The number is the
-    time from the end of the growth to its death, the time from which on it is not found any more,
-    in 1/ω_i; the growth itself takes some 17/ω_i. The note counts the pairs that survive the run.
+    time from the end of the growth to its death, the first of five states in a row in which it is
+    not found, in 1/ω_i; the growth itself takes some 17/ω_i. The note counts the pairs that survive
+    the run.
 
     Asked of: every listed growth rate with four released states.
 

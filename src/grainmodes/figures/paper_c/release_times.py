@@ -33,7 +33,7 @@ COLUMNS = {
     **RUN,
     **END_TIME,
     "change_time": ("t_0", "time of the first change of contacts"),
-    "death_time": ("t_0", "time from which on the released pair is dead"),
+    "death_time": ("t_0", "time at which the released pair has died"),
     **SECOND_TIME,
     "end_square": ("d^2", "M at the end of the growth"),
     "change_square": ("d^2", "M at the first change of contacts"),

@@ -3,6 +3,9 @@
 In a state of the run the invariant subspace of M⁻¹J that inverse iteration finds from that of the
 start is the same pair if their projector overlap is above 0.7. Its λ_i is 0 where the two
 eigenvalues are real, and where the subspace is lost to other modes: the pair is dead there.
+
+In the last turns of the growth the pair comes and goes, as J moves with every excursion. It has
+died with the first of five states in a row in which it is dead.
 """
 
 from __future__ import annotations
@@ -25,6 +28,9 @@ from grainmodes.protocols.release.unstable_state import UnstableState
 
 MIN_FOLLOWED_OVERLAP = 0.7
 """Projector overlap with the pair of the start, below which the subspace is another one."""
+
+DEATH_STATES = 5
+"""Number of states in a row without the pair by which it has died."""
 
 MAX_LOSSES = 10
 """Number of states in a row without the pair after which it is not looked for again."""
@@ -50,6 +56,15 @@ class FollowedPair:
         """Whether the pair is dead for good."""
         last = [value for _, value in self.imaginary[-MAX_LOSSES:]]
         return len(last) == MAX_LOSSES and not any(last)
+
+    @property
+    def death_step(self) -> int | None:
+        """The step at which the pair has died; None if it lives to the end."""
+        alive = [value > 0.0 for _, value in self.imaginary]
+        for place in range(len(alive) - DEATH_STATES + 1):
+            if not any(alive[place : place + DEATH_STATES]):
+                return self.imaginary[place][0]
+        return None
 
     def follow(self, step: int, packing: Packing, interaction: Interaction) -> None:
         """Find λ_i of the pair in a state of the run, in 1/t_0²."""

@@ -163,6 +163,14 @@ def test_the_released_pair_is_followed_while_it_grows():
     assert pair.is_lost
 
 
+def test_a_pair_has_died_with_the_first_of_five_states_without_it():
+    values = [1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+    pair = FollowedPair(None, [(10 * step, value) for step, value in enumerate(values)])
+    assert pair.death_step == 40
+    assert FollowedPair(None, pair.imaginary[:8]).death_step is None
+    assert not pair.is_lost
+
+
 def test_the_first_turns_are_those_of_the_paper_s_sine():
     """C, Fig. 6 (a): M ∝ e^(2ω_i t) sin²(ω_r t), back to 0 twice a turn."""
     start, _, _ = state()
