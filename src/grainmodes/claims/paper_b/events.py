@@ -35,9 +35,6 @@ MIN_JUMP_RATIO = 10.0
 MIN_SHARE = 0.9
 """Share of the events that counts as all; the lowest mode may belong to another place."""
 
-MIN_SHARE_OF_JUMPS = 0.8
-"""Share of the largest drops in which λ_min jumps."""
-
 LARGEST = 0.1
 """Share of the events of a sample that are its largest drops."""
 
@@ -70,14 +67,14 @@ def jump_without_precursor(ensemble) -> Outcome:
 
     Asked of: every point with events; jumps of the largest tenth of the drops of every sample.
 
-    Criterion: λ_min changes by less than 5 % before an event, and jumps in more than 80 % of the
+    Criterion: λ_min changes by less than 5 % before an event, and jumps in more than 90 % of the
     largest drops.
     """
     trends, jumps, notes = [], [], []
     for where, curves in sheared(ensemble, "curve_lowest_eigenvalue"):
         trends.append(Part(f"trend, {where}", over_samples(curves, _trend), -MAX_TREND, MAX_TREND))
         largest = over_samples(curves, _share_of_jumps_in_large_drops)
-        jumps.append(Part(f"jumps of the largest drops, {where}", largest, MIN_SHARE_OF_JUMPS))
+        jumps.append(Part(f"jumps of the largest drops, {where}", largest, MIN_SHARE))
         changes = np.concatenate([_trends(curve) for curve in curves])
         size, all_jumps = (over_samples(curves, f) for f in (_size_of_jump, _share_of_jumps))
         notes.append(
