@@ -40,7 +40,7 @@ def singular_rigidity(ensemble):
 
 
 def turned_out(ensemble):
-    ensemble["path_error_largest"] = 1e-4 * ensemble["path_turn_median"] + 1e-3
+    ensemble["last_path_error"] = 1e-3 * ensemble["last_path_turn"]
 
 
 def other_rate(ensemble):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from grainmodes.dataset.units import (
+    ANGLE,
     BOX_FRACTION,
     ENERGY,
     LENGTH,
@@ -135,6 +136,15 @@ NAMES = {
         BLOCK, "f8", NUMBER, "number of complex pairs of the last state; NaN: not counted"
     ),
     # what a closed loop of strain leaves behind, and linear response just after the first event
+    "last_path_error": Variable(
+        BLOCK, "f8", NUMBER, "largest Err of a contact in the last state before the first event"
+    ),
+    "last_path_increment": Variable(
+        BLOCK, "f8", NUMBER, "largest Err of the last step alone, relative to its own normal"
+    ),
+    "last_path_turn": Variable(
+        BLOCK, "f8", ANGLE, "median angle by which the contacts have turned up to there"
+    ),
     "loop_strain": Variable(
         BLOCK, "f8", NUMBER, "largest strain of a closed loop in which no contact changes"
     ),

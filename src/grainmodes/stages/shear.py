@@ -19,7 +19,7 @@ from grainmodes.stages.shear_rows import (
     bracket_failures,
     coarse_run_row,
     history_row,
-    path_errors_row,
+    last_path_row,
     rate_row,
     run_row,
 )
@@ -60,7 +60,7 @@ def shear_block(
             errors |= bracket_failures(brackets)
             for part, further in {
                 "closed loop": partial(history_row, packing, interaction, choices),
-                "tangential path": partial(path_errors_row, packing, interaction, choices),
+                "tangential path": partial(last_path_row, packing, interaction, choices),
                 "rate after the event": partial(rate_row, brackets[-1], refined_steps(choices)[-1]),
             }.items():
                 try:

@@ -76,6 +76,21 @@ def path_errors_row(
     return {"path_count": len(errors)} | {f"path_{name}": values for name, values in columns}
 
 
+def last_path_row(packing: Packing, interaction: Interaction, choices: Shear) -> dict[str, object]:
+    """B's Err in the last state before the first event; nothing without friction."""
+    if is_frictionless(interaction):
+        return {}
+    errors = path_errors(packing, interaction, choices)
+    if not errors:
+        return {}
+    last = errors[-1]
+    return {
+        "last_path_error": last.error_largest,
+        "last_path_increment": last.error_increment,
+        "last_path_turn": last.turn_median,
+    }
+
+
 def history_row(packing: Packing, interaction: Interaction, choices: Shear) -> dict[str, object]:
     """What a closed loop of strain leaves of the springs; nothing without friction."""
     if is_frictionless(interaction):

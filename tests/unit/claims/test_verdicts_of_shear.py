@@ -19,7 +19,7 @@ NEEDED = {
     "B3": "curve_lowest_eigenvalue",
     "B4": "curve_g_xy",
     "B5": "bracket_min_step",
-    "B6": "path_error_largest",
+    "B6": "last_path_error",
     "B7": "event_quadrupole",
     "B8": "curve_g_xy",
     "B9": "event_reopened",
@@ -132,3 +132,10 @@ def test_small_boxes_and_short_shears_are_not_comparable(monkeypatch):
         "B14": "shear to γ = 0.34",
     }
     assert {found[name].verdict for name in ("B7", "B14")} == {NOT_COMPARABLE}
+
+
+def test_large_strains_are_needed_for_what_depends_on_the_brackets():
+    ensemble = claim_fixtures_shear.ensemble()
+    short = ensemble["coarse_strain"].where(ensemble["coarse_strain"] < 0.3)
+    verdict = verdicts(ensemble.assign(coarse_strain=short))["B2"]
+    assert (verdict.verdict, verdict.needed) == (NOT_COMPARABLE, "shear to γ = 0.34")

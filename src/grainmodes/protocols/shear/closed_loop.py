@@ -1,8 +1,9 @@
 """A closed loop of strain: do the springs come back? B, Sec. V, says that they have no history.
 
-A shear in steps Δγ_in goes on as long as no contact opens, closes or lets go of its spring, at most
-for `MAX_STEPS` steps, and then back to the first strain through the same strains. Without history
-every spring then is what it was:
+A shear in steps Δγ_in finds how far no contact opens, closes or lets go of its spring, looking at
+`MAX_STEPS` steps at most. The loop goes half as far, and back to the first strain through the same
+strains: next to a change even the step back, which begins with an affine one, may open the contact.
+Without history every spring then is what it was:
 
     left = max|s − s_0| after the loop,   slide = max|s − s_0| at its largest strain
 """
@@ -23,7 +24,7 @@ from grainmodes.protocols.shear.strain_step import step_to
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
 MAX_STEPS = 20
-"""Steps to the largest strain of the loop, at most."""
+"""Steps without a change that are looked for."""
 
 
 class Loop(NamedTuple):
@@ -42,18 +43,18 @@ def closed_loop(packing: Packing, interaction: Interaction, choices: Shear) -> L
     """
     whole_steps = replace(choices, min_step=choices.step)
     run = QuasistaticRun.from_packing(packing, interaction, whole_steps)
-    first, strains, last = run.state.equilibrium, [run.state.strain], run.state.equilibrium
+    quiet = [run.state.equilibrium]
     for _, after in accepted_steps(run):
-        if run.network_changes or len(strains) > MAX_STEPS:
+        if run.network_changes or len(quiet) > MAX_STEPS:
             break
-        strains.append(after.strain)
-        last = after.equilibrium
-    if len(strains) == 1:
-        return Loop(strains[0], np.nan, np.nan)
-    back = last
-    for strain in strains[-2::-1]:
-        back, _ = step_to(strain, back, whole_steps)
-    return Loop(strains[-1], _largest_change(first, last), _largest_change(first, back))
+        quiet.append(after.equilibrium.without_factors())
+    way = quiet[: len(quiet) // 2 + 1] if len(quiet) > 2 else quiet[:1]
+    if len(way) == 1:
+        return Loop(packing.strain, np.nan, np.nan)
+    back = way[-1]
+    for state in way[-2::-1]:
+        back, _ = step_to(state.packing.strain, back, whole_steps)
+    return Loop(way[-1].packing.strain, *(_largest_change(way[0], end) for end in (way[-1], back)))
 
 
 def _largest_change(before: EquilibriumState, after: EquilibriumState) -> float:
