@@ -62,6 +62,8 @@ def unstable() -> Block:
     """Two samples that met the same unstable state."""
     block = unstable_states()
     rows = {name: array[[0, 0]] for name, array in block.variables.items()}
+    found = {name: array[:, 1:] for name, array in rows.items() if name.startswith("unstable_")}
+    rows |= found
     return Block(rows | {"seed": np.arange(2)}, block.attributes)
 
 
@@ -83,6 +85,10 @@ STATE = (
     "unstable_mode_real",
     "unstable_mode_imag",
 )
+
+
+HANDED_ON = "unstable_path_"
+"""Beginning of names whose numbers `release` hands on as they are; they may be NaN."""
 
 
 def of_packings(made) -> Stage:
@@ -151,6 +157,8 @@ def test_numbers_that_a_stage_does_not_need_may_be_none(stage):
     others = set(start.variables) - set(STAGES[stage].needed)
     numbers = [name for name in sorted(others) if start.variables[name].dtype.kind == "f"]
     for name in numbers:
+        if name.startswith(HANDED_ON):
+            continue
         found = STAGES[stage].made(infected(start, name))
         for each, array in expected.variables.items():
             np.testing.assert_array_equal(found.variables[each], array, err_msg=name)
