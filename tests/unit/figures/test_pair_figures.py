@@ -9,7 +9,7 @@ import synthetic
 from grainmodes.ensemble import open_ensemble
 from grainmodes.ensemble.exceptional import PairSample, pair_samples
 from grainmodes.figures.paper_c import pair_birth, pair_exponent, pair_overlap
-from grainmodes.figures.shared.pair_samples import longest_pair
+from grainmodes.figures.shared.pair_samples import choose_sample, longest_pair
 from grainmodes.figures.shared.selection import Options
 
 
@@ -59,6 +59,23 @@ def test_a_pair_that_dies_where_two_eigenvalues_meet_is_preferred(whole, shown):
     points = pd.DataFrame({"whole": whole})
     sample = PairSample({}, points, pd.DataFrame(), pd.concat(paths), pd.DataFrame())
     assert longest_pair(sample)["point"].unique().tolist() == [shown]
+
+
+def made_up(n: int, seed: int, whole: bool) -> PairSample:
+    """A sample with one path; all are real, a pair, and real again."""
+    path = pd.DataFrame({"point": 0.0, "strain": np.arange(3.0), "imaginary": [0.0, 1.0, 0.0]})
+    place = {"n": n, "phi": 0.9, "kt": 1.0, "seed": seed}
+    points = pd.DataFrame({"whole": [whole]})
+    return PairSample(place, points, pd.DataFrame(), path, pd.DataFrame())
+
+
+def test_the_sample_that_is_shown_has_the_paper_s_size_and_a_whole_pair():
+    found = [made_up(1000, 0, True), made_up(500, 1, False), made_up(500, 2, True)]
+    chosen = choose_sample([*found, made_up(500, 3, True), made_up(10, 0, True)], Options())
+    assert (chosen.coordinates["n"], chosen.coordinates["seed"]) == (500, 2)
+    assert choose_sample(found, Options(seed=1)).coordinates["seed"] == 1
+    assert choose_sample(found, Options(n=1000)).coordinates["n"] == 1000
+    assert choose_sample([], Options()) is None
 
 
 def test_scalar_products_are_those_of_few_grains_and_of_a_pair(paired):

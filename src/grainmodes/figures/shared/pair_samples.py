@@ -13,6 +13,9 @@ from grainmodes.figures.shared.selection import Options, largest_or, smallest_or
 
 SAMPLE = columns.POINT | columns.LAW | columns.SEED
 
+PAPER_N = 500
+"""N of C's Figs. 1 and 3."""
+
 EIGENVALUE_UNIT = "1/t_0^2"
 
 EIGENVALUES = {
@@ -26,20 +29,35 @@ FIRST, SECOND = BLUE, RED
 
 
 def choose_sample(found: list[PairSample], options: Options) -> PairSample | None:
-    """The sample at the requested n, phi, kt and seed; else at the largest ones and the first seed.
+    """The sample at the requested n, phi, kt and seed.
+
+    Without a request it is one of the N nearest to C's and of the largest φ and k_T, and of these
+    the first one with a pair as C's Fig. 3 shows it (`longest_pair`).
 
     Raises:
         ValueError: there is none at a requested value.
     """
-    requested = {"n": options.n, "phi": options.phi, "kt": options.kt and options.kt[0]}
+    requested = {"phi": options.phi, "kt": options.kt and options.kt[0]}
+    found = _at_size(found, options.n)
     for name, value in requested.items():
         if found:
             chosen = largest_or(value, np.unique([s.coordinates[name] for s in found]), name)
             found = [s for s in found if s.coordinates[name] == chosen]
-    if not found:
-        return None
-    seed = smallest_or(options.seed, np.unique([s.coordinates["seed"] for s in found]), "seed")
-    return next(s for s in found if s.coordinates["seed"] == seed)
+    if options.seed is not None and found:
+        seed = smallest_or(options.seed, np.unique([s.coordinates["seed"] for s in found]), "seed")
+        found = [s for s in found if s.coordinates["seed"] == seed]
+    found = sorted(found, key=lambda sample: sample.coordinates["seed"])
+    return max(found, key=lambda sample: _best(sample)[0][:2], default=None)
+
+
+def _at_size(found: list[PairSample], n: int | None) -> list[PairSample]:
+    """The samples of the requested N, else of the N nearest to C's by its logarithm."""
+    sizes = np.unique([sample.coordinates["n"] for sample in found])
+    if not len(sizes):
+        return []
+    nearest = sizes[np.argmin(np.abs(np.log(sizes / PAPER_N)))]
+    chosen = nearest if n is None else largest_or(n, sizes, "n")
+    return [sample for sample in found if sample.coordinates["n"] == chosen]
 
 
 def samples_with_paths(ensemble) -> list[PairSample]:
@@ -55,27 +73,33 @@ def longest_pair(sample: PairSample) -> pd.DataFrame:
     """The path of one exceptional point, as C's Fig. 3 shows it.
 
     Of the pairs that are born and die where two eigenvalues meet, and whose modes are real at both
-    ends of the path, the one that is a complex pair in the most states between. If there is none,
-    of the pairs that are real at both ends; else of all.
+    ends of the path and a pair in one interval, the one that is a pair in the most states. If there
+    is none, of the pairs that are real at both ends; else of all.
     """
+    return _best(sample)[1]
+
+
+def _best(sample: PairSample) -> tuple[tuple[bool, bool, int], pd.DataFrame]:
+    """The path of `longest_pair` with its rank among the paths of all samples."""
     whole = sample.exceptional_points["whole"]
-    paths = [(bool(whole.get(point, False)), path) for point, path in sample.path.groupby("point")]
+    paths = [
+        (_rank(path, bool(whole.get(point, False))), path)
+        for point, path in sample.path.groupby("point")
+    ]
+    return max(paths, key=lambda entry: entry[0])
 
-    def rank(entry: tuple[bool, pd.DataFrame]) -> tuple[bool, bool, int]:
-        coalesces, path = entry
-        both_ends = _is_real_at_both_ends(path)
-        return coalesces and both_ends, both_ends, int(is_pair(path).sum())
 
-    return max(paths, key=rank)[1]
+def _rank(path: pd.DataFrame, coalesces: bool) -> tuple[bool, bool, int]:
+    """Whether a path is as in C's Fig. 3, whether it is real at both ends, its states as a pair."""
+    pair = is_pair(path).to_numpy()
+    both_ends = not pair[[0, -1]].any()
+    once = np.count_nonzero(pair[1:] != pair[:-1]) == 2
+    return coalesces and both_ends and once, bool(both_ends), int(pair.sum())
 
 
 def is_pair(path: pd.DataFrame) -> pd.Series:
     """In which states of a path the two modes are a complex pair."""
     return path["imaginary"] > 0.0
-
-
-def _is_real_at_both_ends(path: pd.DataFrame) -> bool:
-    return not is_pair(path.iloc[[0, -1]]).any()
 
 
 def draw_eigenvalues(real: Axes, imaginary: Axes, path: pd.DataFrame) -> None:
