@@ -38,8 +38,8 @@ def caption(table: pd.DataFrame) -> Caption:
         "Symbols: means over the samples, bars: standard errors over the samples, as long below "
         "as above. Dotted lines (a1), …, (b3): the frequencies near which the figure of "
         "eigenvectors shows a mode (A, Fig. 7).",
-        "the rotational band, which ends at about ω_R t_0 = (k_T/k_N)^(1/2), and its distance to "
-        "the translational band, which does not depend on k_T at weak friction.",
+        "the rotational band, which moves as ω_R t_0 = (k_T/k_N)^(1/2), and its distance to the "
+        "translational band, which does not depend on k_T at weak friction.",
     )
 
 

@@ -101,8 +101,7 @@ def write_caption(figure: Figure, table, names: tuple = ("n",), note: str = "") 
 
 def write_sample_caption(figure: Figure, table, note: str) -> None:
     """Write the constants of one sample above the figure, and a note below them."""
-    parts = [*constants(table), f"sample {table['seed'].iloc[0]}"]
-    figure.suptitle(", ".join(parts) + f"\n{note}")
+    figure.suptitle(f"{sample_caption(table)}\n{note}")
 
 
 def name_panel(axes: Axes, index: int, text: str) -> None:
