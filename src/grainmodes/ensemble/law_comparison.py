@@ -16,12 +16,12 @@ NUMBERS = ("pairs_slipping", "pairs_sticking", "rate", "growth")
 
 
 def points_with_comparison(ensemble: xr.Dataset) -> list[tuple[int, float, float]]:
-    """The points (n, phi, kt) at which a jammed sample was sheared, ascending.
+    """The points (n, phi, kt) with a converged sample that is jammed and was sheared, ascending.
 
     Raises:
         BlockError: the ensemble holds no comparison of laws.
     """
-    states = variable(ensemble, "comparison_count").max("seed")
+    states = variable(ensemble, "comparison_count").where(ensemble["converged"] == 1).max("seed")
     axes = [states[name].to_numpy().tolist() for name in ("n", "phi", "kt")]
     places = zip(*np.nonzero(states.to_numpy() > 0), strict=True)
     return [tuple(axis[k] for axis, k in zip(axes, place, strict=True)) for place in places]
@@ -32,11 +32,14 @@ def comparison_at(
 ) -> tuple[np.ndarray, dict[str, dict[str, np.ndarray]]]:
     """The strains (M,) of a point, and law → name in `NUMBERS` → values (S, M), NaN if unknown.
 
+    The S samples are those that are converged.
+
     Raises:
         BlockError: the ensemble holds no comparison of laws.
     """
     point = variable(ensemble, "comparison_strain").sel(n=n, phi=phi, kt=kt).to_numpy()
-    used = np.isfinite(point).any(axis=1)
+    converged = variable(ensemble, "converged").sel(n=n, phi=phi, kt=kt).to_numpy() == 1
+    used = converged & np.isfinite(point).any(axis=1)
     strain = np.nanmax(point[used], axis=0)
     found = {}
     for law in TANGENTIAL_LAWS:

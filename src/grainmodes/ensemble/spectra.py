@@ -15,9 +15,13 @@ import numpy as np
 import xarray as xr
 
 from grainmodes.dataset.files import BlockError
+from grainmodes.ensemble.lost import points_of_stages
 from grainmodes.ensemble.reading import variable
 from grainmodes.statistics import averages, binning
 from grainmodes.statistics.binning import BinnedModes, BinSums
+
+STAGES_OF_ENDINGS = {"_rattlers": "spectrum_rattlers", "_hessian": "spectrum_hessian"}
+"""Ending of the name of a variable → its stage; without any it is `spectrum`."""
 
 
 class ResolvedModes(NamedTuple):
@@ -64,13 +68,15 @@ def shared_edges(
 def points_with(ensemble: xr.Dataset, *names: str) -> xr.DataArray:
     """The points at which a sample has a value of one of the variables: bool (n, phi, kt).
 
-    If no sample has any, all points with a spectrum.
+    So are the points at which every sample was lost, so that a figure that wants them says so and
+    shows no others instead. If no sample has any, all points with a spectrum.
 
     Raises:
         BlockError: the ensemble holds none of the names.
     """
     held = [name for name in names if name in ensemble] or [names[0]]
     found = sum(_measured(ensemble, name) for name in held) > 0
+    found |= _all_lost(ensemble, STAGES_OF_ENDINGS.get(f"_{held[0].rsplit('_')[-1]}", "spectrum"))
     return found if found.any() else _measured(ensemble, "mode_count")
 
 
@@ -121,6 +127,16 @@ def binned_spectrum(
 def _measured(ensemble: xr.Dataset, name: str) -> xr.DataArray:
     values = variable(ensemble, name)
     return values.notnull().any(values.dims[3:])
+
+
+def _all_lost(ensemble: xr.Dataset, stage: str) -> xr.DataArray:
+    """The points at which a stage was requested and no sample is converged: bool (n, phi, kt)."""
+    lost = (variable(ensemble, "converged") == 1).sum("seed") > 0
+    lost[...] = False
+    for n, phi, kt in points_of_stages(ensemble).get(stage, ()):
+        point = {"n": n, "phi": phi, "kt": kt}
+        lost.loc[point] = not (ensemble["converged"].sel(point) == 1).any()
+    return lost
 
 
 def _converged(ensemble: xr.Dataset, n: int, phi: float, kt: float) -> xr.Dataset:

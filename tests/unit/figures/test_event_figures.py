@@ -42,6 +42,7 @@ def event_detail(n=36, phi=0.9, kt=1.0, jammed=True, event=True) -> Block:
     lattice = np.stack(np.meshgrid(np.arange(side), np.arange(side)), axis=-1).reshape(1, n, 2)
     variables = {
         "seed": np.array([0]),
+        "converged": np.array([1]),
         "jammed": np.array([int(jammed)]),
         "event_count": np.array([int(jammed and event)]),
         "path_count": np.array([5 if jammed and kt else 0]),

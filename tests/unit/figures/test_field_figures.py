@@ -40,6 +40,7 @@ def fields(n=36, phi=0.9, kt=1e-4, jammed=True, modes=3, **changes) -> Block:
     vectors /= np.sqrt(np.nansum(vectors**2, axis=(2, 3), keepdims=True))
     grid = {
         "seed": np.array([0]),
+        "converged": np.array([1]),
         "jammed": np.array([int(jammed)]),
         "position": lattice + 0.25,
         "diameter": np.full((1, n), 0.9),

@@ -78,6 +78,41 @@ def test_a_point_that_is_lost_as_a_whole_is_told_where_it_would_have_been(tmp_pa
     ]
 
 
+SPECTRAL = ("participation", "dos", "dos_scaled", "dos_hessian", "dos_rattlers", "dos_phi")
+
+
+@pytest.mark.usefixtures("without_layout")
+@pytest.mark.parametrize("name", [*SPECTRAL, "participation_ratio"])
+def test_a_lost_point_is_not_replaced_by_another(tmp_path, name):
+    """Neither another φ nor another k_T takes its place."""
+    stages = ("packings", "spectrum", "spectrum_rattlers", "spectrum_hessian")
+    lost = {(0.9, KTS[0]): range(4)}
+    draw(name, ensemble_that_lost(tmp_path, lost, stages), tmp_path / name, {})
+    (line,) = missing_lines(tmp_path, name)
+    assert line.startswith("N = 16, φ = 0.90, k_T/k_N = 10⁻⁴: 0 of 4 samples")
+    rows = pd.read_csv(tmp_path / f"{name}.csv", comment="#")
+    expected = {0.86} if name == "dos_phi" else {0.9}
+    assert set(rows["phi"]) == expected
+
+
+def test_all_of_the_largest_fraction_lost_leaves_an_empty_figure(tmp_path):
+    path = ensemble_that_lost(tmp_path, {(0.9, kt): range(4) for kt in KTS})
+    draw("dos", path, tmp_path / "dos", {})
+    assert pd.read_csv(tmp_path / "dos.csv", comment="#").empty
+    assert len(missing_lines(tmp_path, "dos")) == 2
+
+
+def test_a_law_that_ended_early_is_left_out_of_the_mean(tmp_path):
+    stages = ("packings", "rigidity", "law_comparison")
+    path = ensemble_that_lost(tmp_path, {(0.9, 1.0): [2]}, stages, (0.9,))
+    draw("law_comparison", path, tmp_path / "laws", {})
+    rows = pd.read_csv(tmp_path / "laws.csv", comment="#")
+    assert set(rows.loc[rows["kind"] == "pairs", "samples"]) == {3}
+    assert missing_lines(tmp_path, "laws")[0].endswith(
+        "3 of 4 samples (1 failed in law_comparison)"
+    )
+
+
 def test_many_points_are_counted(tmp_path):
     path = ensemble_that_lost(tmp_path, {(phi, kt): [1] for phi in PHIS for kt in KTS})
     draw("g_phi", path, tmp_path / "g_phi", {})

@@ -7,7 +7,7 @@ k_T/k_N, the samples and the contact law, is read from the plotted numbers and f
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import pandas as pd
@@ -53,7 +53,7 @@ class Caption(NamedTuple):
 
 
 def caption_text(
-    title: str, caption: Caption, table: pd.DataFrame, law: ContactLaw, lacking: list[str]
+    title: str, caption: Caption, table: pd.DataFrame, law: ContactLaw, lacking: Sequence[str] = ()
 ) -> str:
     """The whole caption: title, what is drawn, of which samples, and what to look at.
 
@@ -67,7 +67,7 @@ def caption_text(
     return in_paragraphs(f"{title}.", caption.shows, drawn, *absent, f"Look at: {caption.look_at}")
 
 
-def listed(lines: list[str]) -> str:
+def listed(lines: Sequence[str]) -> str:
     """Lines of a picture as one sentence."""
     return "; ".join(map(labels.plain, lines))
 

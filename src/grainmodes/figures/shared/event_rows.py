@@ -15,12 +15,16 @@ SAMPLE = POINT | LAW | SEED
 
 
 def sample_with(count: str, blocks: list[Block], options: Options, paper_n: int) -> list[Block]:
-    """The sample to show of those whose variable `count` is above 0; none where it is 0 in all.
+    """The converged sample to show whose variable `count` is above 0; none where it is 0 in all.
 
     Raises:
         ValueError: no sample has the requested n, phi or kt.
     """
-    complete = [block for block in blocks if block.variables.get(count, [0])[0]]
+    complete = [
+        block
+        for block in blocks
+        if block.variables["converged"][0] == 1 and block.variables.get(count, [0])[0]
+    ]
     return at_kt(at_point(complete, options, paper_n), options)
 
 
