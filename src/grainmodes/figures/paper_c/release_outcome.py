@@ -94,7 +94,8 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     nearest = (np.log(table["rate"] / PAPER_RATE)).abs().idxmin()
     _draw_growth(panels[3], table[table["rate"] == table["rate"][nearest]])
     samples = labels.count_samples([table["seed"].nunique()])
-    figure.suptitle(", ".join([*labels.constants(table), samples]))
+    states = f"{table['rate'].nunique()} states"
+    figure.suptitle(", ".join([*labels.constants(table), samples, states]))
 
 
 def _draw_growth(axes: Axes, records: pd.DataFrame) -> None:
