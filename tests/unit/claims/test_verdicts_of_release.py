@@ -109,6 +109,15 @@ def test_grains_that_have_not_left_their_places_show_no_diffusion():
     assert found.needed == "runs to M ≥ d²"
 
 
+def test_a_z_that_few_samples_have_is_not_judged():
+    ensemble = claim_fixtures_release.ensemble()
+    before = ensemble["release_pressure_by_z_before"]
+    before[..., 3:, :, 4] = np.nan
+    found = verdicts(ensemble)["C15"]
+    assert found.verdict == HOLDS
+    assert "6 of 6" in found.explanation
+
+
 def test_states_with_a_single_pair_do_not_show_which_pair_dominates():
     ensemble = claim_fixtures_release.ensemble()
     ensemble["release_start_pairs"] = 0.0 * ensemble["release_start_pairs"] + 1.0

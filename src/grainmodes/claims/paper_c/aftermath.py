@@ -18,7 +18,7 @@ import numpy as np
 
 from grainmodes.claims.claim import Outcome, claim
 from grainmodes.claims.paper_c.released import Released, released
-from grainmodes.claims.part import Part
+from grainmodes.claims.part import MIN_SAMPLES, Part
 from grainmodes.statistics.estimates import mean
 
 if TYPE_CHECKING:
@@ -115,7 +115,7 @@ def pressure_at_every_z(ensemble: xr.Dataset) -> Outcome:
 
     This is log10 of the ratio of the mean P_i of the grains with z contacts, at the end of the runs
     without damping that reach the second instability over that at their start, for every z with at
-    least four grains on both sides.
+    least four grains on both sides in four samples.
 
     Asked of: every listed growth rate with runs that reach a second instability.
 
@@ -129,7 +129,7 @@ def pressure_at_every_z(ensemble: xr.Dataset) -> Outcome:
         before, after = (states.values[f"pressure_by_z_{side}"] for side in ("before", "after"))
         with np.errstate(divide="ignore", invalid="ignore"):
             ratios = np.log10(after / before)[reached]
-        for z in np.flatnonzero(np.isfinite(ratios).sum(axis=0) > 1):
+        for z in np.flatnonzero(np.isfinite(ratios).sum(axis=0) >= MIN_SAMPLES):
             parts.append(Part(f"z = {z}, {states.where}", mean(ratios[:, z]), low=0.0))
     return _outcome(parts, notes)
 

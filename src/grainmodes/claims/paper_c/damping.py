@@ -13,7 +13,7 @@ import numpy as np
 
 from grainmodes.claims.claim import Outcome, claim
 from grainmodes.claims.paper_c.released import Released, released
-from grainmodes.claims.part import Part
+from grainmodes.claims.part import MIN_SAMPLES, Part
 from grainmodes.statistics.estimates import mean
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def _run(states: Released, run: int, threshold: float) -> tuple[list[Part], str]
     )
     largest = np.log10(values["largest_square"][:, run])
     parts = []
-    if np.isfinite(fitted).sum() > 1:
+    if np.isfinite(fitted).sum() >= MIN_SAMPLES:
         difference = mean(fitted - theory)
         parts.append(Part(f"rate, {where}", difference, -MAX_DIFFERENCE, MAX_DIFFERENCE))
     if times < WEAK:
