@@ -51,7 +51,7 @@ def test_a_failed_sample_has_no_curve(sheared):
 
 
 def test_an_approach_begins_after_the_last_change():
-    curve = curves(claim_fixtures_shear.ensemble(), 64, 0.9, 1.0)[0]
+    curve = curves(claim_fixtures_shear.ensemble(), claim_fixtures_shear.N, 0.9, 1.0)[0]
     for first, last in curve.approaches:
         assert curve.event[last]
         assert curve.quiet[first:last].all()
@@ -140,7 +140,7 @@ def test_a_sample_that_is_not_there_is_refused(sheared, options, sentence):
 
 
 def test_both_stresses_stand_on_the_grid():
-    table = stress_brackets.table(claim_fixtures_shear.ensemble(), Options(n=64))
+    table = stress_brackets.table(claim_fixtures_shear.ensemble(), Options(n=claim_fixtures_shear.N))
     states = np.round(table["strain"] / claim_fixtures_shear.STEP)
     np.testing.assert_array_equal(states, np.arange(len(table)))
     ratio = table["coarse_run"] / table["bracketed"]
@@ -171,8 +171,7 @@ def test_a_sample_without_an_event_has_no_drop(sheared):
     assert stress_drop.table(calm, Options()).empty
 
 
-def test_the_sample_with_an_early_event_is_shown_unless_another_is_requested(sheared):
-    """All events of this ensemble are late; those of seed 2 are moved to the first steps."""
+def test_the_sample_with_the_earliest_event_is_shown_unless_another_is_requested(sheared):
     early = sheared["event_strain_before"].where(sheared["seed"] != 2, 1e-3)
     moved = sheared.assign(event_strain_before=early)
     for figure in (stress_strain, rigidity_strain):

@@ -24,7 +24,7 @@ from grainmodes.figures.shared.sheared_samples import (
     SAMPLE,
     SMALL_STRAIN,
     at_small_strain,
-    has_early_event,
+    earliness,
     one_curve,
 )
 
@@ -60,7 +60,7 @@ def table(ensemble, options: Options) -> pd.DataFrame:
         BlockError: the ensemble holds no curves.
         ValueError: no curve lies at the requested n, phi, kt or seed.
     """
-    curve, rows = one_curve(ensemble, options, COLUMNS, prefer=has_early_event)
+    curve, rows = one_curve(ensemble, options, COLUMNS, prefer=earliness)
     if curve is None:
         return rows
     slope = np.where(curve.event, np.nan, curve.stress_change / curve.step)

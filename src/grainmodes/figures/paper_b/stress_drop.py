@@ -88,7 +88,7 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     right = lower.twinx()
     right.plot(x, table["stress"], "o", color="0.15", markersize=2.2, mew=0, label=r"$\sigma$")
     right.set_ylabel(labels.modulus_label(r"$\sigma$", table))
-    titles = ("smallest eigenvalue", "rigidity and stress")
+    titles = ("smallest eigenvalue", "rigidity (open) and stress (dots)")
     for index, (axes, title) in enumerate(zip((upper, lower), titles, strict=True)):
         _mark_event(axes)
         labels.name_panel(axes, index, title)

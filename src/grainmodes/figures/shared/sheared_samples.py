@@ -73,9 +73,9 @@ def one_curve(
     return curve, rows.assign(**point, seed=seed)
 
 
-def has_early_event(curve: Curve) -> float:
-    """1 if a plastic event lies within the strains of B, Figs. 7 and 8, else 0."""
-    return float((curve.strain[:-1][curve.event] <= SMALL_STRAIN).any())
+def earliness(curve: Curve) -> float:
+    """Minus the strain of the first plastic event, as near to B's Figs. 7 and 8 as there is."""
+    return -float(curve.strain[:-1][curve.event].min(initial=np.inf))
 
 
 def at_small_strain(strain: pd.Series, limit: float = SMALL_STRAIN) -> pd.Series:
