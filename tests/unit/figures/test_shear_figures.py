@@ -140,7 +140,8 @@ def test_a_sample_that_is_not_there_is_refused(sheared, options, sentence):
 
 
 def test_both_stresses_stand_on_the_grid():
-    table = stress_brackets.table(claim_fixtures_shear.ensemble(), Options(n=claim_fixtures_shear.N))
+    ensemble = claim_fixtures_shear.ensemble()
+    table = stress_brackets.table(ensemble, Options(n=claim_fixtures_shear.N))
     states = np.round(table["strain"] / claim_fixtures_shear.STEP)
     np.testing.assert_array_equal(states, np.arange(len(table)))
     ratio = table["coarse_run"] / table["bracketed"]
