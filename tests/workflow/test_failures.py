@@ -207,8 +207,8 @@ def test_its_figure_says_one_of_two(broken, stage, tmp_path):
     draw(name, data, tmp_path / name, {} if source != "ensemble" else {"kt": (kt,)})
     text = (tmp_path / f"{name}.csv").read_text(encoding="utf-8")
     lines = [line for line in text.splitlines() if line.startswith("# missing: ")]
-    left = "0 of 1" if STAGES[stage].single_sample else "1 of 2"
-    words = f"{left} samples (1 failed in {STAGES[stage].output})"
+    left = "0 of 1 sample" if STAGES[stage].single_sample else "1 of 2 samples"
+    words = f"{left} (1 failed in {STAGES[stage].output})"
     assert any(line.endswith(words) and f"k_T/k_N = {kt:g}:" in line for line in lines), lines
 
 

@@ -60,7 +60,8 @@ class Shortage(NamedTuple):
         n, phi, kt = self.point
         why = ", ".join(f"{count} {reason}" for reason, count in sorted(self.reasons.items()))
         place = f"N = {n}, φ = {labels.fraction(phi)}, $k_T/k_N = {labels.ratio(kt)}$"
-        return f"{place}: {self.used} of {self.requested} samples ({why})"
+        samples = "sample" if self.requested == 1 else "samples"
+        return f"{place}: {self.used} of {self.requested} {samples} ({why})"
 
 
 def shortages(name: str, source: xr.Dataset | list[Block]) -> list[Shortage]:
