@@ -1,7 +1,7 @@
 """A synthetic ensemble, made of formulas, on which every claim of paper A holds.
 
     G(φ, κ)   = A(φ) [1 + 10 κ] / [1 + κ] style interpolation of two power laws of φ - φ_c
-    G_NA      ∝ (φ - φ_c) log(κ / 2), which rises through 0 at κ = 2
+    G_NA      ∝ (φ - φ_c) log(κ / κ*), which rises through 0 at κ* = 2 + 5 (0.90 - φ)
     rotations at ω = ω_R x, x peaked at 1 for φ = 0.90, moving down as (φ - φ_c)^(1/4)
     translations over a plateau that widens towards φ_c, and one sound wave at ω = 3e-4
 
@@ -94,9 +94,9 @@ def _samples(dataset: xr.Dataset) -> None:
 def _moduli(dataset: xr.Dataset) -> None:
     """G ∝ φ - φ_c without friction, ∝ (φ - φ_c)^(1/2) with much of it."""
     distance, kt = _distance(dataset), dataset["kt"]
-    g = (distance + kt / (1 + kt) * 0.4 * distance**0.5) * ones(dataset)
+    g = (distance + (1.0 - np.exp(-3.0 * kt)) * 0.4 * distance**0.5) * ones(dataset)
     set_moduli(dataset, g)
-    logarithm = np.log(np.maximum(kt, 1e-12) / 2.0)
+    logarithm = np.log(np.maximum(kt, 1e-12) / (2.0 + 5.0 * (0.90 - dataset["phi"])))
     nonaffine = distance * logarithm * noise(dataset, 0.05)
     dataset["g_nonaffine"] = (nonaffine * ones(dataset)).transpose(*POINT)
     loaded = -distance * (1 + kt) * noise(dataset, 0.05)

@@ -86,6 +86,7 @@ def _packings(n, phi, kt, size, draws):
         "pressure": np.maximum(phi - JAMMING, 0.0) * np.ones(size),
         "jammed": np.full(size, phi > JAMMING, dtype=np.int8),
         "max_force": np.full(size, 5e-15),
+        "phi_jamming": np.full(size, JAMMING),
         "rattler_count": draws.integers(0, 3, size),
         "iterations": draws.integers(1000, 2000, size),
     }

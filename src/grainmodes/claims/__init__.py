@@ -1,17 +1,17 @@
-"""Claims of the papers, each checked on an ensemble: a package per paper, and what they share."""
+"""Claims, each checked on an ensemble: a package per paper, one of our own, and what they share."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from grainmodes.claims import paper_a, paper_b, paper_c
+from grainmodes.claims import own, paper_a, paper_b, paper_c
 from grainmodes.claims.claim import NOT_TESTED, Claim, Verdict
 from grainmodes.claims.samples import points_left_out
 from grainmodes.ensemble import open_ensemble
 from grainmodes.ensemble.lost import lost_in_words, lost_samples
 
-CLAIMS: tuple[Claim, ...] = (*paper_a.CLAIMS, *paper_b.CLAIMS, *paper_c.CLAIMS)
-"""A1 to A22, B1 to B14, then C1 to C9."""
+CLAIMS: tuple[Claim, ...] = (*paper_a.CLAIMS, *paper_b.CLAIMS, *paper_c.CLAIMS, *own.CLAIMS)
+"""A1 to A22, B1 to B14, C1 to C9, last G1 to G4."""
 
 
 def check(ensemble, claims: tuple[Claim, ...] = CLAIMS) -> list[Verdict]:

@@ -140,7 +140,7 @@ def _samples_needed(part: Part) -> str:
         return f"{MIN_SAMPLES} samples at {part.where}"
     samples, (low, high) = part.measured.samples, part.measured.interval()
     reach, distance = 0.5 * (high - low), abs(part.margin)
-    if not np.isfinite(reach) or reach > MAX_REACH * distance:
+    if not np.isfinite(reach) or reach >= MAX_REACH * distance:
         return f"more samples at {part.where}"
     needed = max(samples * (reach / distance) ** 2, samples + 1.0)
     return f"about {np.ceil(needed):.0f} samples at {part.where}"

@@ -5,6 +5,7 @@
 | `paper_a` | figures of paper A, a module each              |
 | `paper_b` | figures of paper B                             |
 | `paper_c` | figures of paper C, and a film of its Fig. 5   |
+| `own`     | figures of our own claims                      |
 | `shared`  | what several figures need: rows, panels, words |
 
 The name of a figure in `parameters.figures.FIGURES` is the name of its module, which has

@@ -215,6 +215,16 @@ FIGURES = {
         "Complex pairs under several tangential laws (paper C, Sec. VIII)",
         ("law_comparison",),
     ),
+    "nonaffine_crossing": Figure(
+        "own",
+        "Change of sign of the non-affine rigidity with tangential stiffness (claim G1)",
+        ("rigidity", "friction"),
+    ),
+    "rigidity_exponent": Figure(
+        "own",
+        "Rigidity against the distance to jamming at strong friction (claim G4)",
+        ("rigidity", "friction"),
+    ),
 }
 """Every figure. `rigidity` figures show the simulated step strain as well where a study has it;
 `modes` stands for a spectrum with eigenvectors or binned averages, `friction` for a k_T above 0,

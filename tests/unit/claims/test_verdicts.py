@@ -121,7 +121,7 @@ def test_bins_give_the_verdicts_of_the_modes():
 def test_the_loaded_step_stands_beside_the_sign_change():
     verdict = verdicts(claim_fixtures.ensemble())["A6"]
     assert "positive in 0 of 384 samples" in verdict.explanation
-    assert "κ* = 2(0) at φ = 0.86" in verdict.explanation
+    assert "2.2(0) at φ = 0.86" in verdict.explanation
 
 
 def test_a_sign_that_never_changes_contradicts_the_sign_change():

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from grainmodes.claims.claim import Outcome, claim
-from grainmodes.claims.crossings import zero_crossings
-from grainmodes.claims.part import Part
+from grainmodes.claims.part import MIN_SAMPLES, Part
 from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled, label
+from grainmodes.ensemble.trends import sign_changes
 from grainmodes.statistics.estimates import Estimate, mean, relative_difference
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def nonaffine_sign_change(ensemble: xr.Dataset) -> Outcome:
     These are the means of g_nonaffine (unloaded step) at the largest k_T/k_N ≤ 1 and at the
     smallest ≥ 5: A's grid has 1, 2 and 5, so that its figure tells nothing closer about where the
     sign changes. The k_T/k_N of the change, κ*, is reported and is claim G1. The growth is the
-    relative difference of |G_NA| at the highest and the lowest φ, at the smallest and at the
+    relative difference of |G_NA| at the lowest φ to that at the highest, at the smallest and at the
     largest k_T, paired by seed.
 
     Asked of: every φ with a k_T/k_N ≤ 1 and one ≥ 5; two φ.
@@ -70,11 +70,11 @@ def _mean(samples: Samples, phi: float, kappa: float) -> Estimate:
 
 def _growth(samples: Samples, kappa: float, phis: list[float]) -> Part:
     low, high = (np.abs(samples.values("g_nonaffine", phi, kappa)) for phi in (phis[0], phis[-1]))
-    return Part(f"growth at {label(kappa=kappa)}", relative_difference(high, low), 0.0)
+    return Part(f"growth at {label(kappa=kappa)}", relative_difference(low, high), high=0.0)
 
 
 def _crossings(samples: Samples) -> str:
-    found = zero_crossings(samples)
+    found = sign_changes(samples.ensemble, samples.n, MIN_SAMPLES)
     listed = ", ".join(f"{zero} at {label(phi)}" for phi, zero in found.items())
     return f"The unloaded G_NA crosses 0 at κ* = {listed}." if found else ""
 

@@ -25,10 +25,10 @@ from grainmodes.claims.paper_a.ranges import (
 )
 from grainmodes.claims.part import Part
 from grainmodes.claims.samples import ABOVE_ZERO, Samples, best_sampled, label
+from grainmodes.ensemble.trends import MIN_AREA_FRACTIONS, exponent
 from grainmodes.statistics.estimates import (
     Estimate,
     jackknife,
-    logarithm,
     mean,
     relative_difference,
 )
@@ -39,9 +39,6 @@ if TYPE_CHECKING:
 
 LIMIT_TOLERANCE = 0.001
 """Largest relative difference to the frictionless G at which its limit counts as reached."""
-
-MIN_AREA_FRACTIONS = 3
-"""Smallest number of area fractions for an exponent."""
 
 
 @claim("A2", unit="1")
@@ -59,7 +56,7 @@ def not_proportional_to_distance(ensemble: xr.Dataset) -> Outcome:
     enough = [k for k in samples.kappas("g") if len(samples.phis("g", k)) >= MIN_AREA_FRACTIONS]
     if not enough:
         raise NotTested(f"{MIN_AREA_FRACTIONS} area fractions with jammed samples")
-    exponents = {kappa: _exponent(samples, kappa) for kappa in enough}
+    exponents = {kappa: exponent(samples.ensemble, samples.n, kappa) for kappa in enough}
     parts = [
         Part(label(kappa=kappa), beta, 0.9, 1.1, outside=True)
         for kappa, beta in exponents.items()
@@ -67,21 +64,6 @@ def not_proportional_to_distance(ensemble: xr.Dataset) -> Outcome:
     ]
     listed = ", ".join(f"{beta} at κ = {kappa:g}" for kappa, beta in exponents.items())
     return Outcome({"k_T/k_N ≥ 1": parts}, f"The exponent β is {listed}.")
-
-
-def _exponent(samples: Samples, kappa: float) -> Estimate:
-    """Mean over seeds of d log G / d log(φ - φ_c), for seeds with at least three φ."""
-    phis = samples.phis("g", kappa)
-    distance = np.array([phi - samples.values("phi_jamming", phi, kappa) for phi in phis])
-    moduli = np.array([samples.values("g", phi, kappa) for phi in phis])
-    (x, _), (y, dropped) = logarithm(distance), logarithm(moduli)
-    slopes = mean(np.array([_slope(*column) for column in zip(x.T, y.T, strict=True)]))
-    return slopes._replace(left_out=dropped)
-
-
-def _slope(x: np.ndarray, y: np.ndarray) -> float:
-    known = np.isfinite(x) & np.isfinite(y)
-    return np.polyfit(x[known], y[known], 1)[0] if known.sum() >= MIN_AREA_FRACTIONS else np.nan
 
 
 @claim("A3", unit="1")

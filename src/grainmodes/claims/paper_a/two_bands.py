@@ -171,8 +171,9 @@ def _shift(band: np.ndarray, reference: np.ndarray) -> float:
 def translational_band_is_fixed(ensemble: xr.Dataset) -> Outcome:
     """D of Region II is almost independent of k_T/k_N for k_T/k_N ≤ 1e-2 (Fig. 9).
 
-    These are the differences of log ω at nine quantiles (0.1 ... 0.9) of the translational band to
-    those at the smallest k_T, of which the largest is taken, paired by seed.
+    Region II at a k_T are the modes with ω > 2 ω_R. These are the differences of log ω at nine
+    quantiles (0.1 ... 0.9) of it to those of the modes above the same ω at the smallest k_T, of
+    which the largest is taken, paired by seed.
 
     Asked of: the largest φ with spectra, every k_T/k_N ≤ 0.01 and at least two of them.
 
@@ -180,9 +181,19 @@ def translational_band_is_fixed(ensemble: xr.Dataset) -> Outcome:
     """
     _, phi, spectra = friction_spectra(ensemble)
     weak = within(spectra, ABOVE_ZERO, OVERLAP_RANGE[1])
-    bands = {kappa: log_quantiles(found.translational) for kappa, found in weak.items()}
+    shifts = {
+        kappa: _region(found, kappa) - _region(weak[min(weak)], kappa)
+        for kappa, found in weak.items()
+        if kappa > min(weak)
+    }
     parts = [
-        Part(label(phi, k), mean(np.abs(bands[k] - bands[min(bands)]).max(axis=1)), high=0.05)
-        for k in sorted(bands)[1:]
+        Part(label(phi, kappa), mean(np.abs(shift).max(axis=1)), high=0.05)
+        for kappa, shift in shifts.items()
     ]
     return Outcome({"two k_T/k_N ≤ 0.01": parts})
+
+
+def _region(found: Modes, kappa: float) -> np.ndarray:
+    """log ω at `QUANTILES` of the modes in Region II of this k_T, (S, Q)."""
+    inside = found.frequency > REGION_BOUNDARY * np.sqrt(kappa)
+    return log_quantiles(np.where(inside, found.frequency, np.nan))
