@@ -48,7 +48,7 @@ def table(ensemble: xr.Dataset, options: Options) -> pd.DataFrame:
     Raises:
         ValueError: the ensemble lacks the requested n.
     """
-    n = largest_or(options.n, _sizes(ensemble), "n")
+    n = int(largest_or(options.n, _sizes(ensemble), "n"))
     rows = [row for phi in ensemble["phi"].to_numpy().tolist() for row in _rows(ensemble, n, phi)]
     return pd.DataFrame(rows, columns=list(COLUMNS)).assign(**law_values(contact_law(ensemble)))
 

@@ -48,7 +48,7 @@ def table(ensemble: xr.Dataset, options: Options) -> pd.DataFrame:
     Raises:
         ValueError: the ensemble lacks the requested n.
     """
-    n = largest_or(options.n, _sizes(ensemble), "n")
+    n = int(largest_or(options.n, _sizes(ensemble), "n"))
     kappas = [k for k in ensemble["kt"].to_numpy().tolist() if k == 0.0 or k >= STRONG_KAPPA]
     rows = [row for kappa in kappas for row in _rows(ensemble, n, kappa)]
     return pd.DataFrame(rows, columns=list(COLUMNS)).assign(**law_values(contact_law(ensemble)))
@@ -109,7 +109,7 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     labels.write_caption(figure, table)
 
 
-def _curve(axes: Axes, curve: pd.DataFrame, kt: float, colour, marker: str) -> None:
+def _curve(axes: Axes, curve: pd.DataFrame, kt: float, colour: tuple, marker: str) -> None:
     bars = appearance.logarithmic_bars(
         curve["rigidity"].to_numpy(), curve["standard_error"].to_numpy()
     )
