@@ -3,7 +3,8 @@
 A shear in steps Δγ_in finds how far no contact opens, closes or lets go of its spring, looking at
 `MAX_STEPS` steps at most. The loop goes half as far, and back to the first strain through the same
 strains: next to a change even the step back, which begins with an affine one, may open the contact.
-Without history every spring then is what it was:
+Without history every spring then is what it was, but for a part in proportion to Δγ_in, as a step
+that does not load the springs by itself is a zigzag path:
 
     left = max|s − s_0| after the loop,   slide = max|s − s_0| at its largest strain
 """

@@ -16,15 +16,17 @@ INTERACTION = Interaction.from_law(B)
 CHOICES = Shear(step=1e-5)
 
 
-def test_the_springs_come_back_to_second_order_in_the_step():
+def test_the_springs_come_back_but_for_a_part_in_proportion_to_the_step(monkeypatch):
     packing = packing_for(B)
-    coarse, fine = (
-        closed_loop(packing, INTERACTION, replace(CHOICES, step=step)) for step in (1e-4, 1e-5)
-    )
-    for loop in (coarse, fine):
-        assert loop.strain > 0.0
-        assert 0.0 < loop.left < 1e-3 * loop.slide
-    assert 0.0 < fine.strain <= 10 * 1e-5
+    loops = []
+    for halvings in range(3):
+        monkeypatch.setattr(module, "MAX_STEPS", 10 * 2**halvings)
+        step = 1e-5 / 2**halvings
+        loops.append(closed_loop(packing, INTERACTION, replace(CHOICES, step=step, min_step=step)))
+    assert {round(loop.strain, 12) for loop in loops} == {5e-5}
+    parts = np.array([loop.left / loop.slide for loop in loops])
+    np.testing.assert_allclose(parts[1:] / parts[:-1], 0.5, rtol=0.05)
+    assert parts[0] < 1e-4
 
 
 def test_the_loop_is_closed_and_not_a_way_out(monkeypatch):
