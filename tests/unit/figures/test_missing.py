@@ -186,6 +186,14 @@ def test_a_film_of_nothing_is_a_frame_that_says_why(tmp_path):
     assert second.endswith("1 of 2 samples (1 failed in complex_pairs)")
 
 
+def test_a_sample_that_failed_in_part_is_used_and_named():
+    lost = {"release": {"0": "state 1: no balance"}, "complex_pairs": {"1": "no balance"}}
+    (shortage,) = missing.shortages("release_outcome", [released_block(failures=lost)])
+    assert str(shortage).endswith(
+        "1 of 2 samples (1 failed in complex_pairs, 1 failed in release in part)"
+    )
+
+
 def test_nothing_missing_leaves_the_files_as_they_are(tmp_path, path):
     draw("g_phi", path, tmp_path / "g_phi", {})
     assert len(numbers_of(tmp_path, "g_phi"))

@@ -3,7 +3,8 @@
 A sample is missing where it was lost in a stage of its point (`ensemble.lost`), and in averages of
 sheared samples also where it is not jammed. A point belongs to a figure if each of its n, φ and k_T
 is among those drawn; a point without any sample left also if one of them is not, because the figure
-would have drawn it.
+would have drawn it. Of a released sample some states may be lost and others not: it counts as used,
+and it is said that it failed in part.
 """
 
 from __future__ import annotations
@@ -136,10 +137,12 @@ def _in_blocks(blocks: list[Block]) -> list[Shortage]:
     found = []
     for point, converged in rows.items():
         reasons, used = _reasons(point, lost), sum(converged.values())
-        if used < len(converged):
-            counts = Counter(
-                reasons.get(seed, NOT_COMPUTED) for seed, whole in converged.items() if not whole
-            )
+        counts = Counter(
+            f"{reasons[seed]} in part" if whole else reasons.get(seed, NOT_COMPUTED)
+            for seed, whole in converged.items()
+            if not whole or seed in reasons
+        )
+        if counts:
             found.append(Shortage(point, used, len(converged), counts))
     return sorted(found)
 
