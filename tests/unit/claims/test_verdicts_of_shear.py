@@ -8,7 +8,7 @@ import pytest
 import claim_fixtures
 import claim_fixtures_shear
 from claim_mutants_shear import MUTANTS, SECOND_MUTANTS
-from grainmodes.claims import CLAIMS, check, paper_b
+from grainmodes.claims import check, paper_a, paper_b, paper_c
 from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_COMPARABLE, NOT_RESOLVED, NOT_TESTED
 from grainmodes.claims.paper_b import events
 
@@ -37,12 +37,15 @@ def small_quadrupoles(monkeypatch):
     monkeypatch.setattr(events, "QUADRUPOLE_N", claim_fixtures_shear.N)
 
 
+PAPERS = (*paper_a.CLAIMS, *paper_b.CLAIMS, *paper_c.CLAIMS)
+
+
 def verdicts(ensemble, claims=paper_b.CLAIMS):
     return {verdict.claim: verdict for verdict in check(ensemble, claims)}
 
 
 def test_both_papers_stand_in_one_table():
-    found = verdicts(claim_fixtures_shear.ensemble(), CLAIMS)
+    found = verdicts(claim_fixtures_shear.ensemble(), PAPERS)
     of_c = [name for name in found if name.startswith("C")]
     assert list(found) == [*(f"A{number}" for number in range(1, 23)), *NAMES, *of_c]
     assert {name for name, v in found.items() if v.verdict == NOT_TESTED} == set(of_c)
@@ -53,7 +56,7 @@ def test_both_papers_stand_in_one_table():
 def test_one_changed_number_contradicts_its_claim_alone(name, mutate):
     ensemble = claim_fixtures_shear.ensemble()
     mutate(ensemble)
-    found = verdicts(ensemble, CLAIMS)
+    found = verdicts(ensemble, PAPERS)
     fallen = {n: v.verdict for n, v in found.items() if v.verdict not in (HOLDS, NOT_TESTED)}
     assert fallen == {name: CONTRADICTED}
 

@@ -20,7 +20,8 @@ from scenes import (
 
 def test_figures_follow_the_observables():
     nothing = {"spectrum": "none"}
-    assert scene_with("grid.observables", nothing).figures == ("g_phi", "g_kt", "g_nonaffine")
+    of_g = ("g_phi", "g_kt", "g_nonaffine", "nonaffine_crossing", "rigidity_exponent")
+    assert scene_with("grid.observables", nothing).figures == of_g
     assert "participation" not in scene_with("grid.observables", {"spectrum": "counts"}).figures
     assert (
         "participation" in scene_with("grid.observables", {"spectrum": "binned_averages"}).figures
