@@ -13,5 +13,7 @@
 | `release_contacts` | 9       | contacts along a release                                        |
 | `release_pressure` | 10      | pressures of contacts and grains before and after a release     |
 | `release_damping`  | 11      | the same state released under several dampings                  |
+| `release_pair`     | 12      | the pair along its shear, and its growth when it is released    |
+| `release_times`    |         | when the growth of released states ends, against their ω_i      |
 | `law_comparison`   | 12(a)   | complex pairs under several tangential laws, and their growth   |
 """
