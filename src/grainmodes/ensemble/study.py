@@ -1,4 +1,4 @@
-"""All points of a study in one file, with the dimensions n, phi, kt, seed, and that of a series.
+"""All points of a study in one file, with the dimensions n, phi, kt, seed, and those of a series.
 
 Points are written one after the other, so that the memory is that of one point, for any size of the
 study; a spectrum is one chunk. Missing values and missing points are NaN; integers have the fill
@@ -105,9 +105,9 @@ def _layout(paths: list[Path]) -> Layout:
             stages.setdefault(stage, []).append(point_name(*_coordinates(block)))
         versions.add(str(block.attributes["code_version"]))
         for name, array in block.variables.items():
-            if array.ndim == 2:
-                dimension = VARIABLES[name].dimensions[1]
-                lengths[dimension] = max(lengths.get(dimension, 0), array.shape[1])
+            own = zip(VARIABLES[name].dimensions[1:], array.shape[1:], strict=True)
+            for dimension, length in own:
+                lengths[dimension] = max(lengths.get(dimension, 0), length)
     coordinates = {
         name: np.unique([point[axis] for point in grid]) for axis, name in enumerate(GRID)
     }
@@ -145,7 +145,7 @@ def _storage(layout: Layout, dimensions: tuple[str, ...]) -> dict[str, object]:
     if len(dimensions) < 2:
         return {}
     lengths = layout.lengths | {"mode": len(layout.coordinates["mode"])}
-    chunk = (1, 1, 1, 1, lengths[dimensions[1]])
+    chunk = (1, 1, 1, 1, *(lengths[dimension] for dimension in dimensions[1:]))
     return {"chunksizes": chunk, "zlib": True, "complevel": 1, "shuffle": True}
 
 
@@ -173,5 +173,5 @@ def _fill_rows(
     variable: netCDF4.Variable, place: tuple[int, ...], rows: np.ndarray, array: np.ndarray
 ) -> None:
     for row, values in zip(rows, array, strict=True):
-        rest = (slice(0, len(values)),) if array.ndim == 2 else ()
+        rest = tuple(slice(0, length) for length in array.shape[1:])
         variable[(*place, int(row), *rest)] = values

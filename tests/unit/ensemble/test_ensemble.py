@@ -72,6 +72,24 @@ def test_series_of_different_lengths_are_filled_up():
         np.testing.assert_array_equal(merged["event_kind"], [[1, 1, 1, 0, 0], [1, 1, 1, 1, 1]])
 
 
+def test_an_ensemble_holds_several_numbers_of_every_run_of_every_state(tmp_path):
+    """Two released states with three runs at one point, one state with two runs at another."""
+    damping = {0.5: np.arange(6.0).reshape(1, 2, 3), 1.0: np.array([[[7.0, 8.0]]])}
+    paths = []
+    for kt, values in damping.items():
+        released = synthetic.block("rigidity", 8, 0.9, kt, range(1))
+        released.variables["release_damping"] = values
+        paths.append(tmp_path / f"{kt}.nc")
+        write_block(paths[-1], merge_blocks({"a": released}))
+    write_ensemble(paths, tmp_path / "ensemble.nc", {})
+    with open_ensemble(tmp_path / "ensemble.nc") as dataset:
+        found = dataset["release_damping"].transpose("kt", "release_state", "damping", ...)
+        assert_array_equal(found.to_numpy().squeeze()[0], damping[0.5][0])
+        none = np.nan
+        expected = [[7.0, 8.0, none], [none, none, none]]
+        assert_array_equal(found.to_numpy().squeeze()[1], expected)
+
+
 def test_converged_is_true_only_where_every_observable_is():
     merged = merge_blocks(
         {

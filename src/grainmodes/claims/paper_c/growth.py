@@ -16,7 +16,7 @@ import numpy as np
 
 from grainmodes.claims.claim import Outcome, claim
 from grainmodes.claims.paper_c.released import RATE, Released, all_rates, released
-from grainmodes.claims.part import Part
+from grainmodes.claims.part import MIN_SAMPLES, Part
 from grainmodes.statistics.estimates import mean
 
 if TYPE_CHECKING:
@@ -197,7 +197,7 @@ def fastest_dominates(ensemble: xr.Dataset) -> Outcome:
     names = ("noise_rate", "noise_frequency", "frequency_linear", "start_pairs")
     for where, values in released(ensemble, *names):
         several = values["start_pairs"] > 1
-        if not several.any():
+        if several.sum() < MIN_SAMPLES:
             continue
         for name in ("rate", "frequency"):
             difference = values[f"noise_{name}"] / values[f"{name}_linear"] - 1.0
