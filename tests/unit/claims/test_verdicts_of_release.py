@@ -167,8 +167,8 @@ def test_a_rate_that_no_sample_reaches_is_left_out():
 def test_the_notes_have_what_is_not_judged():
     found = verdicts(claim_fixtures_release.ensemble())
     assert "M oscillates by 0.19" in found["C5"].explanation
-    assert "The growth ends at η_0 = 4" in found["C7"].explanation
-    assert "M grows at 0.75" in found["C7"].explanation
+    assert "the threshold is 4" in found["C7"].explanation
+    assert "under η_0 = 1 ω_i M grows at 0.75" in found["C7"].explanation
 
 
 def test_the_note_counts_runs_that_reach_a_second_instability():

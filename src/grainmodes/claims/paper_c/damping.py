@@ -52,23 +52,30 @@ def damping(ensemble: xr.Dataset) -> Outcome:
     names = ("damping", "rate_damped", "threshold", "largest_square", "end_square", "second_time")
     for states in released(ensemble, *names, "displacement_rate"):
         threshold = mean(states.values["threshold"] / states.rate)
-        notes.append(f"The growth ends at η_0 = {threshold} ω_i at {states.where}.")
-        for run in range(1, states.values["damping"].shape[1]):
-            found, note = _run(states, run, threshold.value)
-            parts += found
-            notes.append(note)
+        runs = range(1, states.values["damping"].shape[1])
+        parts += [part for run in runs for part in _parts(states, run, threshold.value)]
+        grown = "; ".join(filter(None, (_sentence(states, run) for run in runs)))
+        notes.append(f"{states.where}: the threshold is {threshold} ω_i; {grown}.")
     return Outcome({"released states": parts}, " ".join(notes))
 
 
-def _run(states: Released, run: int, threshold: float) -> tuple[list[Part], str]:
-    """The parts of one damping, and a sentence on it."""
-    values = states.values
-    times = float(np.nanmedian(values["damping"][:, run] / states.rate))
+def _times(states: Released, run: int) -> float:
+    """η_0 of a run over ω_i."""
+    return float(np.nanmedian(states.values["damping"][:, run] / states.rate))
+
+
+def _rates(states: Released, run: int) -> tuple[np.ndarray, np.ndarray]:
+    """The fitted rate and that of linear theory, (S,) each, in ω_i."""
+    names = ("displacement_rate", "rate_damped")
+    fitted, theory = (states.values[name][:, run] / states.rate for name in names)
+    return fitted, theory
+
+
+def _parts(states: Released, run: int, threshold: float) -> list[Part]:
+    """The parts of one damping."""
+    times, (fitted, theory) = _times(states, run), _rates(states, run)
     where = f"η_0 = {times:.3g} ω_i, {states.where}"
-    fitted, theory = (
-        values[name][:, run] / states.rate for name in ("displacement_rate", "rate_damped")
-    )
-    largest = np.log10(values["largest_square"][:, run])
+    largest = np.log10(states.values["largest_square"][:, run])
     parts = []
     if np.isfinite(fitted).sum() >= MIN_SAMPLES:
         difference = mean(fitted - theory)
@@ -78,7 +85,17 @@ def _run(states: Released, run: int, threshold: float) -> tuple[list[Part], str]
         parts.append(Part(f"growth, {where}", ratio, low=MIN_LOG_RATIO))
     if times > STRONG * threshold:
         parts.append(Part(f"no growth, {where}", mean(largest), high=SUPPRESSED))
-    reached = np.isfinite(values["second_time"][:, run]).sum()
-    known = np.isfinite(states.rate).sum()
-    note = f"At {where} M grows at {mean(fitted)} ω_i, theory {mean(theory)} ω_i"
-    return parts, f"{note}; {reached} of {known} reach a second instability."
+    return parts
+
+
+def _sentence(states: Released, run: int) -> str:
+    """How fast M grows under one damping, and what follows; nothing where M does not grow."""
+    fitted, theory = _rates(states, run)
+    if not np.isfinite(fitted).any():
+        return ""
+    reached = np.isfinite(states.values["second_time"][:, run]).sum()
+    return (
+        f"under η_0 = {_times(states, run):.3g} ω_i M grows at {mean(fitted)} ω_i, theory "
+        f"{mean(theory)} ω_i, and {reached} of {np.isfinite(states.rate).sum()} reach a second "
+        "instability"
+    )
