@@ -31,7 +31,8 @@ NUMBERS = COORDINATES | TRAJECTORY
 """Numbers of a point and of a trajectory, all of unit 1, that no block here holds."""
 
 FROM_ELSEWHERE = {"spring_state"}
-"""Only packings of other codes have it; its unit is that of `event_spring_state_before`."""
+"""Only packings compressed with friction, and of other codes, have it; its unit is that of
+`event_spring_state_before`."""
 
 RTOL = 0.2
 """A wrong power changes a number by a factor of 2 at least; a released state is chaotic."""

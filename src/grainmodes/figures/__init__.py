@@ -35,7 +35,11 @@ from matplotlib.figure import Figure
 from grainmodes.dataset.files import BlockError
 from grainmodes.ensemble import contact_law, open_ensemble
 from grainmodes.figures.shared import captions, labels, missing
-from grainmodes.figures.shared.sample_files import law_of, read_samples
+from grainmodes.figures.shared.sample_files import (
+    compressed_with_friction,
+    law_of,
+    read_samples,
+)
 from grainmodes.figures.shared.selection import Options
 from grainmodes.parameters.figures import FIGURES, FORMS
 from grainmodes.runtime.atomic import replaced
@@ -74,6 +78,7 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
                 raise
             table = pd.DataFrame(columns=list(module.COLUMNS))
         law = law_of(source[0]) if isinstance(source, list) else contact_law(source)
+        loaded = compressed_with_friction(source, table)
     title, lacking = FIGURES[name].title, missing.notes(name, short, table)
     with matplotlib.style.context(STYLE):
         figure = Figure()
@@ -84,7 +89,8 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
         else:
             module.draw(figure, table)
             labels.write_below(figure, lacking)
-            caption = captions.caption_text(title, module.caption(table), table, law, lacking)
+            words = module.caption(table)
+            caption = captions.caption_text(title, words, table, law, lacking, loaded)
         header = _header(title, module.COLUMNS, lacking)
         numbers = header + table.to_csv(index=False)
         _write(Path(out_stem), figure, numbers, caption, beyond=bool(lacking))

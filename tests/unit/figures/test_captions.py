@@ -4,10 +4,13 @@ from importlib import import_module
 
 import pandas as pd
 import pytest
+import xarray as xr
 
+from grainmodes.dataset.files import Block
 from grainmodes.figures import draw
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.captions import WIDTH, Caption, caption_text
+from grainmodes.figures.shared.sample_files import compressed_with_friction
 from grainmodes.parameters.figures import FIGURES
 from grainmodes.parameters.law import TANGENTIAL_LAWS, ContactLaw
 from pictures import caption_of
@@ -90,3 +93,17 @@ def test_lines_are_short(path, tmp_path):
 def test_a_stiffness_ratio_is_written_as_one(kt, formula, text):
     assert labels.ratio(kt) == formula
     assert labels.plain(formula) == text
+
+
+def test_a_caption_says_how_the_packings_were_compressed():
+    text = caption_text("Title", Caption("what", "where"), rows(), ELASTIC, (), True)
+    assert "compressed with friction" in text
+    assert "compressed" not in drawn(rows(), ELASTIC)
+    flags = xr.DataArray([[1.0], [0.0]], {"n": [64, 256]}, dims=("n", "seed"))
+    ensemble = xr.Dataset({"compressed_with_friction": flags})
+    assert compressed_with_friction(ensemble, rows())
+    assert not compressed_with_friction(ensemble, rows(n=[256]))
+    assert not compressed_with_friction(xr.Dataset(), rows())
+    block = Block({}, {"n": 64, "config": {"frictional_compression": {}}})
+    assert compressed_with_friction([block], rows())
+    assert not compressed_with_friction([block], rows(n=[256]))

@@ -53,7 +53,12 @@ class Caption(NamedTuple):
 
 
 def caption_text(
-    title: str, caption: Caption, table: pd.DataFrame, law: ContactLaw, lacking: Sequence[str] = ()
+    title: str,
+    caption: Caption,
+    table: pd.DataFrame,
+    law: ContactLaw,
+    lacking: Sequence[str] = (),
+    compressed_with_friction: bool = False,
 ) -> str:
     """The whole caption: title, what is drawn, of which samples, and what to look at.
 
@@ -61,8 +66,11 @@ def caption_text(
         table: the plotted numbers, at least one row.
         law: contact law of the scene.
         lacking: what `missing.notes` says of samples that are missing.
+        compressed_with_friction: whether the packings were.
     """
-    drawn = f"Drawn: {'; '.join([*_grid_values(table), _samples(table), law_words(table, law)])}."
+    parts = [*_grid_values(table), _samples(table), law_words(table, law)]
+    parts += ["packings compressed with friction"] * compressed_with_friction
+    drawn = f"Drawn: {'; '.join(parts)}."
     absent = [f"Missing: {listed(lacking)}."] if lacking else []
     return in_paragraphs(f"{title}.", caption.shows, drawn, *absent, f"Look at: {caption.look_at}")
 

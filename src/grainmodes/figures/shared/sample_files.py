@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
@@ -11,6 +12,9 @@ import pandas as pd
 from grainmodes.dataset.files import Block, BlockError, content_of, read_block
 from grainmodes.figures.shared.selection import Options, largest_or
 from grainmodes.parameters.law import ContactLaw
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 CONTENTS = {"fields": "fields", "event_detail": "event details", "release": "releases"}
 """Stage that writes single samples → what its files hold."""
@@ -92,6 +96,21 @@ def point_of(block: Block) -> dict[str, float]:
 def law_of(block: Block) -> ContactLaw:
     """The contact law of a block."""
     return ContactLaw(**block.mapping("config").get("law", {}))
+
+
+def compressed_with_friction(source: list[Block] | xr.Dataset, table: pd.DataFrame) -> bool:
+    """Whether the packings of a table of plotted numbers were compressed with friction.
+
+    All packings of one N are of one kind.
+    """
+    sizes = set(table["n"])
+    if isinstance(source, list):
+        shown = [block for block in source if int(block.attributes["n"]) in sizes]
+        return any("frictional_compression" in block.mapping("config") for block in shown)
+    if "compressed_with_friction" not in source:
+        return False
+    of_table = source["n"].isin(list(sizes))
+    return bool((source["compressed_with_friction"].where(of_table) == 1).any())
 
 
 def joined(parts: Iterable[pd.DataFrame], columns: Iterable[str]) -> pd.DataFrame:
