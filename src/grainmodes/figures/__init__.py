@@ -14,6 +14,8 @@ The name of a figure in `parameters.figures.FIGURES` is the name of its module, 
     table(source, options)       the plotted numbers, a pure function
     draw(figure, table)          the picture of these numbers and of nothing else
     caption(table)               what is drawn and what to look at: `shared.captions.Caption`
+    EMPTY                        what an empty table means, if not that no sample is jammed or has
+                                 its observable (`shared.missing.NOTHING`)
 
 The source is the ensemble, or a list of blocks: the files of single samples.
 
@@ -79,7 +81,8 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
             table = pd.DataFrame(columns=list(module.COLUMNS))
         law = law_of(source[0]) if isinstance(source, list) else contact_law(source)
         loaded = compressed_with_friction(source, table)
-    title, lacking = FIGURES[name].title, missing.notes(name, short, table)
+    title, empty = FIGURES[name].title, getattr(module, "EMPTY", "")
+    lacking = missing.notes(name, short, table, empty)
     with matplotlib.style.context(STYLE):
         figure = Figure()
         FigureCanvasAgg(figure)

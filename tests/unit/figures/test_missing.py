@@ -167,6 +167,13 @@ def test_an_empty_answer_is_no_failure(tmp_path):
     assert missing_lines(tmp_path, "mean") == ["no jammed sample was sheared"]
 
 
+def test_a_figure_may_have_words_of_its_own_for_an_empty_answer(tmp_path):
+    path = synthetic.ensemble(tmp_path, phis=(0.9,), kts=(1e-8, 1e-4))
+    draw("nonaffine_crossing", path, tmp_path / "crossing", {})
+    sentence = "no jammed sample at a k_T/k_N of at least 0.05"
+    assert missing_lines(tmp_path, "crossing") == [sentence]
+
+
 def released_block(**attributes) -> Block:
     """Two samples of the stage `release`, neither with a state to release."""
     pairs = complex_pairs_block()

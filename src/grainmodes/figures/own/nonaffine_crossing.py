@@ -31,6 +31,8 @@ PAPER_CROSSING = 2.0
 LOWEST_KAPPA = 0.05
 """Smallest k_T/k_N that panel (a) shows."""
 
+EMPTY = f"no jammed sample at a k_T/k_N of at least {LOWEST_KAPPA}"
+
 COLUMNS = {
     **LAW,
     **POINT,
@@ -43,14 +45,15 @@ COLUMNS = {
 
 
 def table(ensemble: xr.Dataset, options: Options) -> pd.DataFrame:
-    """G_NA of every point and κ* of every φ, with the columns `COLUMNS`.
+    """G_NA from `LOWEST_KAPPA` on and κ* of every φ, with the columns `COLUMNS`.
 
     Raises:
         ValueError: the ensemble lacks the requested n.
     """
     n = int(largest_or(options.n, _sizes(ensemble), "n"))
     rows = [row for phi in ensemble["phi"].to_numpy().tolist() for row in _rows(ensemble, n, phi)]
-    return pd.DataFrame(rows, columns=list(COLUMNS)).assign(**law_values(contact_law(ensemble)))
+    found = pd.DataFrame(rows, columns=list(COLUMNS)).assign(**law_values(contact_law(ensemble)))
+    return found[found["kt"] >= LOWEST_KAPPA]
 
 
 def _sizes(ensemble: xr.Dataset) -> np.ndarray:
@@ -95,7 +98,7 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     """Draw G_NA against k_T beside κ* against φ."""
     figure.set_size_inches(7.0, 3.0)
     left, right = figure.subplots(1, 2)
-    _curves(left, table[table["kt"] >= LOWEST_KAPPA])
+    _curves(left, table)
     _crossings(right, table.drop_duplicates("phi"))
     labels.name_panel(left, 0, r"unloaded $G_{\rm NA}$")
     labels.name_panel(right, 1, "change of sign")

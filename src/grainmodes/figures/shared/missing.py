@@ -81,15 +81,19 @@ def _stages_of(name: str) -> set[str]:
     return {stage.output for stage in responses() if stage.observable in words}
 
 
-def notes(name: str, found: Iterable[Shortage], table: pd.DataFrame) -> list[str]:
-    """What a figure says of the samples that it lacks; of an empty one, why it is empty."""
+def notes(name: str, found: Iterable[Shortage], table: pd.DataFrame, empty: str = "") -> list[str]:
+    """What a figure says of the samples that it lacks; of an empty one, why it is empty.
+
+    Args:
+        empty: what an empty table means where no sample was lost; by default `NOTHING`.
+    """
     shown = [shortage for shortage in found if _belongs(shortage, table)]
     lines = [str(shortage) for shortage in shown[:MAX_POINTS]]
     if len(shown) > MAX_POINTS:
         lines.append(f"and {len(shown) - MAX_POINTS} more points with fewer samples than requested")
     if table.empty and not (shown and all(shortage.used == 0 for shortage in shown)):
         words = [NOTHING[word] for word in FIGURES[name].observables if word in NOTHING]
-        lines.insert(0, words[0] if words else NOTHING_JAMMED)
+        lines.insert(0, empty or next(iter(words), NOTHING_JAMMED))
     return lines
 
 
