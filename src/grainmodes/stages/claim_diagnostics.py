@@ -61,7 +61,7 @@ MAX_DENSE_GRAINS = 1024
 MAX_PAIR_GRAINS = 512
 """Most grains of which all eigenvalues of a matrix that is not symmetric are computed."""
 
-MAX_DAMPED_GRAINS = 64
+MAX_DAMPED_GRAINS = 128
 """Most grains that the damped dynamics relaxes, or that are sheared to the state of claim A12."""
 
 
