@@ -1,7 +1,8 @@
 """Gathers blocks of samples into points, and points into one ensemble, and reads it.
 
 `averages` has means with errors, `spectra` the modes of a point, `curves` its stress-strain curves,
-`exceptional` the births and deaths of complex pairs.
+`exceptional` the births and deaths of complex pairs, `lost` the
+samples without a whole result.
 """
 
 from grainmodes.ensemble.point import gather_point, merge_blocks
