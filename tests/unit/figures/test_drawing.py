@@ -119,4 +119,5 @@ def test_labels_of_samples_and_fractions():
     assert labels.count_samples([8, 8]) == "8 samples"
     assert labels.count_samples(np.array([6, 8])) == "6–8 samples"
     assert labels.count_samples([1]) == "1 sample"
+    assert [labels.count_samples([k], "state") for k in (1, 3)] == ["1 state", "3 states"]
     assert [labels.fraction(phi) for phi in (0.9, 0.845)] == ["0.90", "0.845"]

@@ -94,7 +94,7 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     nearest = (np.log(table["rate"] / PAPER_RATE)).abs().idxmin()
     _draw_growth(panels[3], table[table["rate"] == table["rate"][nearest]])
     samples = labels.count_samples([table["seed"].nunique()])
-    states = f"{table['rate'].nunique()} states"
+    states = labels.count_samples([table["rate"].nunique()], "state")
     figure.suptitle(", ".join([*labels.constants(table), samples, states]))
 
 

@@ -99,4 +99,5 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
         labels.name_panel(axes, index, title)
     figure.legend(*times.get_legend_handles_labels(), loc="outside lower center", ncols=5)
     samples = labels.count_samples([table["seed"].nunique()])
-    figure.suptitle(", ".join([*labels.constants(table), samples, f"{len(table)} states"]))
+    states = labels.count_samples([len(table)], "state")
+    figure.suptitle(", ".join([*labels.constants(table), samples, states]))

@@ -64,10 +64,10 @@ def fraction(phi: float) -> str:
     return f"{phi:.2f}" if math.isclose(phi, round(phi, 2)) else f"{phi:g}"
 
 
-def count_samples(counts) -> str:
+def count_samples(counts, one: str = "sample") -> str:
     """How many samples stand behind the points of a figure: `8 samples`, `6–8 samples`."""
     low, high = int(min(counts)), int(max(counts))
-    word = "sample" if high == 1 else "samples"
+    word = one if high == 1 else f"{one}s"
     return f"{high} {word}" if low == high else f"{low}–{high} {word}"
 
 
