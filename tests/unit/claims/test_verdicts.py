@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import claim_fixtures
-from claim_mutants import MUTANTS, SECOND_MUTANTS, no_overlap
+from claim_mutants import MUTANTS, SECOND_MUTANTS, no_overlap, spread_rattlers
 from grainmodes.claims import check
 from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_COMPARABLE, NOT_TESTED
 from grainmodes.claims.paper_a import CLAIMS
@@ -139,6 +139,15 @@ def test_a_gap_in_a_box_smaller_than_the_papers_is_not_comparable():
     assert found == {"A8": (NOT_COMPARABLE, "N ≥ 4096")}
     ensemble = ensemble.assign_coords(n=[256, 4096, 128])
     assert verdicts(ensemble)["A8"].verdict == CONTRADICTED
+
+
+def test_a_small_system_may_lack_localised_modes_by_chance():
+    ensemble = claim_fixtures.ensemble()
+    spread_rattlers(ensemble)
+    found = {n: (v.verdict, v.needed) for n, v in verdicts(ensemble).items() if v.verdict != HOLDS}
+    assert found == {"A13": (NOT_COMPARABLE, "N ≥ 4096")}
+    ensemble = ensemble.assign_coords(n=[256, 4096, 128])
+    assert verdicts(ensemble)["A13"].verdict == CONTRADICTED
 
 
 def test_small_systems_are_not_compared_where_single_packings_decide():
