@@ -31,7 +31,8 @@ def test_every_law_of_the_table_is_used():
         "release",
     }
     every |= {"law_comparison", "complex_pairs"}
-    used = {"trajectory", "equilibrate"} | every
+    used = {"trajectory", "frictional_trajectory", "equilibrate", "equilibrate_with_friction"}
+    used |= every
     for factorisation in ("superlu", "pardiso"):
         choices = SpectrumChoices(factorisation=factorisation)
         for kind in ("counts", "binned_averages", "eigenvalues", "modes"):
