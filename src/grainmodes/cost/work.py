@@ -4,7 +4,8 @@ Spectra follow the rules by which the stages choose a method: LAPACK up to a siz
 at the edges of bins, or slices of eigenpairs. ψ^R of a bin is counted in `cells_per_bin` cells:
 each at its end on the diagonal and at two corners, and pairs of cells once more at two, four
 counts a cell. p takes the eigenpairs of a bin, at most `modes_per_bin`. A shear is priced per step
-of 1e-4, complex pairs per state, a release per million steps of all its runs.
+of 1e-4, with the complex pairs of its events and λ_min of its states where they are computed;
+complex pairs per state, a release per million steps of all its runs.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from grainmodes.parameters.spectra import (
     SpectrumChoices,
 )
 from grainmodes.parameters.stages import STAGES
+from grainmodes.parameters.strain import MAX_PAIR_DOF, Shear
 from grainmodes.statistics.binning import (
     HIGHEST_BINS,
     HIGHEST_DIVISIONS,
@@ -32,6 +34,9 @@ from grainmodes.statistics.binning import (
 
 USUAL_STEP = 1e-4
 """The step of strain in which a shear is priced, with the brackets of its events."""
+
+EVENTS_PER_STRAIN = 300.0
+"""Plastic events per unit of strain: 165 to γ = 0.5, 14 to 23 to γ = 0.1 (N = 128, paper B)."""
 
 USUAL_RATE = 0.02
 """ω_i, in 1/t_0, of the state that is released where a scene lists no rates."""
@@ -56,7 +61,19 @@ def work(
         kind = kind if entry.work == "spectrum" else "counts"
         once = _spectrum(kind, n, kt, protocol.spectrum, table)
         return {name: times * units for name, units in once.items()}
+    if entry.work == "shear":
+        return _shear(n, kt, protocol.shear)
     return {stage: UNITS[entry.work](protocol)}
+
+
+def _shear(n: int, kt: float, choices: Shear) -> dict[str, float]:
+    """Steps of 1e-4, events whose complex pairs are counted, and states whose λ_min is computed."""
+    units = {"shear": choices.strain / USUAL_STEP}
+    if kt > 0.0 and degrees_of_freedom(n, kt) <= MAX_PAIR_DOF:
+        units["event_pairs"] = EVENTS_PER_STRAIN * choices.strain
+    if choices.lowest_eigenvalue == "states":
+        units["lowest_eigenvalue"] = choices.strain / choices.step
+    return units
 
 
 def _runs(choices: Release, rates: tuple[float, ...]) -> float:

@@ -28,7 +28,7 @@ class Stage:
         options: further boolean keys of `grids.observables` that change what it does → meaning.
         reads: name of the stage whose blocks it takes.
         folder: of its files; its name if empty.
-        work: how the number of units of its growth law is counted, a key of `cost.work.UNITS`.
+        work: how the number of units of its growth law is counted, as `cost.work.work` does.
         needs_friction: it does not exist at k_T = 0.
         needs_springs_at_rest: it does not exist for packings compressed with friction.
         single_sample: it keeps the grains of the first sample, to be drawn; a point gathers only

@@ -127,7 +127,7 @@ ENTRIES = (
         options={
             "coarse_run": "The shear once more, events not bracketed; checks of the first event."
         },
-        work="usual steps",
+        work="shear",
         resumable=True,
     ),
     Stage(

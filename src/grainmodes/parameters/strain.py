@@ -7,6 +7,9 @@ from dataclasses import dataclass
 STRAIN_RELAXATIONS = ("newton", "damped")
 LOWEST_EIGENVALUES = ("events", "states")
 
+MAX_PAIR_DOF = 1200
+"""Most degrees of freedom at which the complex pairs after an event are counted."""
+
 
 @dataclass(frozen=True)
 class StepStrain:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import product
 from typing import TYPE_CHECKING
 
 from grainmodes.cost.table import Table
-from grainmodes.planning.hours import protocol_of, seconds_per_seed
+from grainmodes.planning.hours import preparation_of, protocol_of, seconds_per_seed
 from grainmodes.planning.quantities import Plan, PointCoordinates, Remark, plan_point
 from grainmodes.planning.seeds import CONFIDENCE, MIN_SEEDS
 
@@ -34,7 +34,13 @@ def report(ensemble: xr.Dataset, target: float, table: Table) -> str:
             f"expected a point with at least {MIN_SEEDS} converged seeds and a mean other than 0, "
             "got none"
         )
-    return "\n".join(_lines(found, target, protocol_of(ensemble), table))
+    protocol = protocol_of(ensemble)
+
+    def seconds(point: PointCoordinates, plan: Plan) -> float:
+        preparation = preparation_of(ensemble, point)
+        return seconds_per_seed(point, plan.spectrum, preparation, protocol, table)
+
+    return "\n".join(_lines(found, target, seconds, table.machine))
 
 
 def _points(ensemble: xr.Dataset) -> list[PointCoordinates]:
@@ -44,20 +50,22 @@ def _points(ensemble: xr.Dataset) -> list[PointCoordinates]:
     return [point for point, here in zip(product(*axes), computed.ravel(), strict=True) if here]
 
 
-def _lines(found: dict, target: float, protocol, table: Table) -> Iterator[str]:
+def _lines(
+    found: dict, target: float, seconds: Callable[[PointCoordinates, Plan], float], machine: str
+) -> Iterator[str]:
     yield f"seeds for a relative standard error of {100 * target:g} %"
     yield ""
     yield COLUMNS
     for point, rows in found.items():
         for plan in (row for row in rows if isinstance(row, Plan)):
-            yield _row(point, plan, seconds_per_seed(point, plan.spectrum, protocol, table))
+            yield _row(point, plan, seconds(point, plan))
     yield ""
     for point, rows in found.items():
         remarks = (row for row in rows if isinstance(row, Remark))
         yield from (f"{_point_label(point)}: {remark.sentence}" for remark in remarks)
     yield "pilot: number of its seeds; error: relative standard error that the pilot reaches"
     yield "interval: chi-square of the variance; the worst bin is the largest of many estimates"
-    yield f"CPU h: each point by itself, on one thread of {table.machine}"
+    yield f"CPU h: each point by itself, on one thread of {machine}"
 
 
 def _row(point: PointCoordinates, plan: Plan, seconds: float) -> str:

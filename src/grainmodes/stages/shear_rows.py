@@ -10,7 +10,7 @@ from grainmodes.dataset.padding import stack_padded
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.forces import is_frictionless
 from grainmodes.packing.state import Packing, nan_on_rattlers
-from grainmodes.parameters.strain import Shear
+from grainmodes.parameters.strain import MAX_PAIR_DOF, Shear
 from grainmodes.protocols.shear.closed_loop import closed_loop
 from grainmodes.protocols.shear.event_multipoles import rotational_multipoles
 from grainmodes.protocols.shear.event_states import nonaffine_rate, simulated_nonaffine_rate
@@ -21,9 +21,6 @@ from grainmodes.protocols.shear.sheared_state import CurvePoint
 from grainmodes.protocols.shear.tangential_path import PathError, path_errors
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 from grainmodes.response.stability import asymmetry, count_complex_pairs
-
-MAX_PAIR_DOF = 1200
-"""Degrees of freedom up to which complex pairs are counted, which then takes a second an event."""
 
 
 def run_row(run: QuasistaticRun) -> dict[str, object]:

@@ -50,10 +50,20 @@ def test_two_hessians_are_counted_whatever_the_spectrum():
     assert work("spectrum_hessian", "modes", 4096, 1.0, PROTOCOL, TABLE) == {"count_superlu": 1282}
 
 
-def test_a_shear_is_priced_by_its_strain():
-    for strain, step in ((0.5, 1e-4), (0.2, 1e-3)):
-        protocol = Protocol(shear=Shear(strain, step))
-        assert work("shear", "none", 128, 1.0, protocol, TABLE) == {"shear": strain / 1e-4}
+@pytest.mark.parametrize(
+    ("n", "kt", "lowest", "further"),
+    [
+        (128, 0.0, "events", {}),
+        (128, 1.0, "events", {"event_pairs": 60.0}),
+        (400, 1.0, "events", {"event_pairs": 60.0}),
+        (402, 1.0, "events", {}),
+        (1024, 1.0, "states", {"lowest_eigenvalue": 200.0}),
+    ],
+)
+def test_a_shear_is_priced_by_its_strain_and_what_is_computed_on_it(n, kt, lowest, further):
+    protocol = Protocol(shear=Shear(0.2, 1e-3, lowest_eigenvalue=lowest))
+    found = work("shear", "none", n, kt, protocol, TABLE)
+    assert found == pytest.approx({"shear": 0.2 / 1e-4} | further)
 
 
 @pytest.mark.parametrize(

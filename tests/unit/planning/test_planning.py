@@ -12,8 +12,8 @@ from grainmodes.cost import read_table
 from grainmodes.dataset.files import BlockError
 from grainmodes.ensemble import open_ensemble
 from grainmodes.parameters.protocol import Protocol
-from grainmodes.planning import Plan, plan_point, seeds_needed
-from grainmodes.planning.hours import seconds_per_seed
+from grainmodes.planning import Plan, plan_point, report, seeds_needed
+from grainmodes.planning.hours import preparation_of, seconds_per_seed
 from grainmodes.planning.quantities import MIN_MODES
 
 STAGES = ("packings", "rigidity", "spectrum_bins")
@@ -158,14 +158,34 @@ def test_an_ensemble_without_any_observable_is_refused(tmp_path, capsys):
 
 def test_hours_are_those_of_the_stages():
     table = read_table()
-    rigidity = seconds_per_seed((1024, 0.9, 1e-4), "none", Protocol(), table)
+    rigidity = seconds_per_seed((1024, 0.9, 1e-4), "none", "frictionless", Protocol(), table)
     laws = table.laws
     parts = (laws[name].seconds for name in ("trajectory", "equilibrate", "rigidity"))
     assert rigidity == pytest.approx(sum(parts))
-    modes = seconds_per_seed((1024, 0.9, 1e-4), "modes", Protocol(), table)
+    modes = seconds_per_seed((1024, 0.9, 1e-4), "modes", "frictionless", Protocol(), table)
     assert modes - rigidity == pytest.approx(laws["dense_modes"].seconds - laws["rigidity"].seconds)
-    lower = seconds_per_seed((1024, 0.83, 1e-4), "none", Protocol(), table)
+    lower = seconds_per_seed((1024, 0.83, 1e-4), "none", "frictionless", Protocol(), table)
     assert rigidity - lower == pytest.approx((1 - table.share(0.83)) * laws["trajectory"].seconds)
+
+
+@pytest.mark.parametrize(
+    ("flag", "preparation", "laws"),
+    [
+        (0.0, "frictionless", ("trajectory", "equilibrate")),
+        (1.0, "frictional", ("frictional_trajectory", "equilibrate_with_friction")),
+    ],
+)
+def test_a_pilot_is_priced_as_its_packings_were_compressed(tmp_path, flag, preparation, laws):
+    table = read_table()
+    path = synthetic.ensemble(tmp_path, ns=(1024,), phis=(0.9,), kts=(1.0,), seeds=8)
+    with open_ensemble(path) as pilot:
+        assert preparation_of(pilot, (1024, 0.9, 1.0)) == "frictionless"
+        marked = pilot.assign(compressed_with_friction=flag + 0.0 * pilot["converged"])
+        assert preparation_of(marked, (1024, 0.9, 1.0)) == preparation
+        row = next(line for line in report(marked, 0.01, table).splitlines() if " G " in line)
+    seconds = seconds_per_seed((1024, 0.9, 1.0), "none", preparation, Protocol(), table)
+    assert seconds == pytest.approx(sum(table.laws[name].seconds for name in (*laws, "rigidity")))
+    assert float(row[84:93]) == pytest.approx(float(row[52:62]) * seconds / 3600, rel=0.01)
 
 
 def test_the_command_prints_a_row_for_every_quantity(tmp_path, capsys):
@@ -177,7 +197,7 @@ def test_the_command_prints_a_row_for_every_quantity(tmp_path, capsys):
         rows = [line for line in printed.splitlines() if line.startswith("    64     0.9")]
         assert [row[24:38].strip() for row in rows] == ["G", "D, median bin", "D, worst bin"]
         seeds, hours = (float(rows[0][place]) for place in (slice(52, 62), slice(84, 93)))
-        seconds = seconds_per_seed((64, 0.9, 1.0), "none", Protocol(), read_table())
+        seconds = seconds_per_seed((64, 0.9, 1.0), "none", "frictionless", Protocol(), read_table())
         assert hours == pytest.approx(seeds * seconds / 3600, rel=0.01)
         assert "n = 64, phi = 0.83, k_T = 1: no converged seed is jammed" in printed
 
