@@ -8,7 +8,13 @@ import pytest
 
 import claim_fixtures_laws
 from grainmodes.claims import check, paper_a, paper_b, paper_c
-from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_COMPARABLE, NOT_TESTED
+from grainmodes.claims.claim import (
+    CONTRADICTED,
+    HOLDS,
+    NOT_COMPARABLE,
+    NOT_RESOLVED,
+    NOT_TESTED,
+)
 from grainmodes.claims.paper_c import laws
 
 OWN = (laws.smoothed_is_unstable, laws.sharp_is_stable)
@@ -90,3 +96,11 @@ def test_a_sharp_law_without_slip_is_judged_by_its_springs_alone():
     verdict = verdicts(ensemble)["C9"]
     assert verdict.verdict == HOLDS
     assert verdict.where.startswith("sticking")
+
+
+def test_pairs_in_four_of_four_samples_may_be_chance():
+    """A share has the interval of the binomial distribution, also where all samples agree."""
+    ensemble = claim_fixtures_laws.ensemble().isel(seed=range(4))
+    verdict = verdicts(ensemble)["C8"]
+    assert verdict.verdict == NOT_RESOLVED
+    assert "4 of 4 [0.40, 1.00]" in verdict.printed

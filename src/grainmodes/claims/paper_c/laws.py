@@ -19,6 +19,7 @@ from grainmodes.claims.part import Part
 from grainmodes.claims.samples import Samples, best_sampled, label
 from grainmodes.ensemble import normal_law
 from grainmodes.statistics.estimates import Estimate, mean
+from grainmodes.statistics.shares import share
 
 MIN_SHARE = 0.5
 """Share of the samples that must have a pair in some state."""
@@ -49,7 +50,7 @@ def smoothed_is_unstable(ensemble) -> Outcome:
     parts, notes = [], []
     for point in points:
         pairs = _by_state(samples, "pairs_slipping", "smoothed_coulomb", point)
-        parts.append(Part(f"born, {label(*point)}", mean(_born(pairs)), MIN_SHARE))
+        parts.append(Part(f"born, {label(*point)}", share(_born(pairs)), MIN_SHARE))
         parts.append(Part(f"growth, {label(*point)}", _growth(samples, point), *AGREEMENT_RANGE))
         notes.append(f"A state has {mean(np.nanmean(pairs, axis=1))} pairs at {label(*point)}.")
     return Outcome({"sheared samples": _resolved(parts)}, " ".join(notes))
@@ -110,6 +111,7 @@ def _by_state(samples: Samples, number: str, law: str, point: tuple[float, float
 
 
 def _born(pairs: np.ndarray) -> np.ndarray:
+    """Whether a sample has pairs in any state; (S,) of 1 and 0."""
     return (np.nan_to_num(pairs) > 0).any(axis=1).astype(float)
 
 
