@@ -177,3 +177,19 @@ def test_the_note_counts_runs_that_reach_a_second_instability():
     ensemble["release_second_time"] = second.where(second["damping"] == 0)
     explanation = verdicts(ensemble)["C7"].explanation
     assert "0 of 16 reach a second instability" in explanation
+
+
+@pytest.mark.parametrize(
+    ("runs", "needed"),
+    [
+        ([0], "released states that grow under a drag"),
+        ([0, 1, 2], "runs with η_0 above twice the threshold"),
+        ([0, 2, 4], "runs with η_0 < 0.5 ω_i"),
+    ],
+)
+def test_c7_needs_a_weak_and_a_strong_damping(runs, needed):
+    """Growth rates alone do not show that a strong damping suppresses the growth."""
+    found = verdicts(claim_fixtures_release.ensemble().isel(damping=runs))["C7"]
+    assert found.verdict == NOT_TESTED
+    assert needed in found.needed
+    assert "ω_i; ." not in found.explanation

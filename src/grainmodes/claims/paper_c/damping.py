@@ -43,20 +43,33 @@ def damping(ensemble: xr.Dataset) -> Outcome:
     theory, in ω_i; for η_0 < 0.5 ω_i, log10 of the largest M over M at the end of the growth
     without damping; above twice the threshold, log10 of the largest M.
 
-    Asked of: every listed growth rate with four released states.
+    Asked of: every listed growth rate with four released states; among their runs some whose M
+    grows under a drag, some with η_0 < 0.5 ω_i, and some above twice the threshold.
 
     Criterion: Rates are within ±0.02 ω_i of linear theory, weak damping leaves the growth within a
     decade of M, and strong damping keeps log10 M below -15.
     """
-    parts, notes = [], []
+    rates: list[Part] = []
+    weak: list[Part] = []
+    strong: list[Part] = []
+    notes = []
     names = ("damping", "rate_damped", "threshold", "largest_square", "end_square", "second_time")
     for states in released(ensemble, *names, "displacement_rate"):
         threshold = mean(states.values["threshold"] / states.rate)
         runs = range(1, states.values["damping"].shape[1])
-        parts += [part for run in runs for part in _parts(states, run, threshold.value)]
-        grown = "; ".join(filter(None, (_sentence(states, run) for run in runs)))
-        notes.append(f"{states.where}: the threshold is {threshold} ω_i; {grown}.")
-    return Outcome({"released states": parts}, " ".join(notes))
+        for run in runs:
+            times = _times(states, run)
+            rates += _rate_parts(states, run)
+            weak += [_growth_part(states, run)] if times < WEAK else []
+            strong += [_no_growth_part(states, run)] if times > STRONG * threshold.value else []
+        grown = filter(None, (_sentence(states, run) for run in runs))
+        notes.append("; ".join([f"{states.where}: the threshold is {threshold} ω_i", *grown]) + ".")
+    groups = {
+        "released states that grow under a drag": rates,
+        "runs with η_0 < 0.5 ω_i": weak,
+        "runs with η_0 above twice the threshold": strong,
+    }
+    return Outcome(groups, " ".join(notes))
 
 
 def _times(states: Released, run: int) -> float:
@@ -71,21 +84,31 @@ def _rates(states: Released, run: int) -> tuple[np.ndarray, np.ndarray]:
     return fitted, theory
 
 
-def _parts(states: Released, run: int, threshold: float) -> list[Part]:
-    """The parts of one damping."""
-    times, (fitted, theory) = _times(states, run), _rates(states, run)
-    where = f"η_0 = {times:.3g} ω_i, {states.where}"
-    largest = np.log10(states.values["largest_square"][:, run])
-    parts = []
-    if np.isfinite(fitted).sum() >= MIN_SAMPLES:
-        difference = mean(fitted - theory)
-        parts.append(Part(f"rate, {where}", difference, -MAX_DIFFERENCE, MAX_DIFFERENCE))
-    if times < WEAK:
-        ratio = mean(largest - np.log10(states.undamped("end_square")))
-        parts.append(Part(f"growth, {where}", ratio, low=MIN_LOG_RATIO))
-    if times > STRONG * threshold:
-        parts.append(Part(f"no growth, {where}", mean(largest), high=SUPPRESSED))
-    return parts
+def _named(states: Released, run: int) -> str:
+    return f"η_0 = {_times(states, run):.3g} ω_i, {states.where}"
+
+
+def _largest(states: Released, run: int) -> np.ndarray:
+    """log10 of the largest M of a run, (S,)."""
+    return np.log10(states.values["largest_square"][:, run])
+
+
+def _rate_parts(states: Released, run: int) -> list[Part]:
+    """The fitted rate minus that of linear theory, if enough samples grow."""
+    fitted, theory = _rates(states, run)
+    if np.isfinite(fitted).sum() < MIN_SAMPLES:
+        return []
+    difference = mean(fitted - theory)
+    return [Part(f"rate, {_named(states, run)}", difference, -MAX_DIFFERENCE, MAX_DIFFERENCE)]
+
+
+def _growth_part(states: Released, run: int) -> Part:
+    ratio = mean(_largest(states, run) - np.log10(states.undamped("end_square")))
+    return Part(f"growth, {_named(states, run)}", ratio, low=MIN_LOG_RATIO)
+
+
+def _no_growth_part(states: Released, run: int) -> Part:
+    return Part(f"no growth, {_named(states, run)}", mean(_largest(states, run)), high=SUPPRESSED)
 
 
 def _sentence(states: Released, run: int) -> str:
