@@ -43,6 +43,12 @@ def pressure_falls_at_one_z(ensemble):
     )
 
 
+def no_contact_begins_to_slide(ensemble):
+    """As the growth ends as many contacts slide as at the start."""
+    start = ensemble["release_start_sliding"]
+    ensemble["release_growth_sliding"] = 0.0 * ensemble["release_growth_sliding"] + start
+
+
 MUTANTS = [
     ("C4", changed("spiral_misfit", 1e3)),
     ("C4", changed("spiral_overlap", 0.9)),
@@ -66,5 +72,7 @@ MUTANTS = [
     ("C15", pressure_falls_at_one_z),
     ("C16", changed("growth_sliding", 0.0)),
     ("C16", changed("after_sliding", 0.0)),
+    ("C16", changed("after_sliding", 0.0, 2.0)),
+    ("C16", no_contact_begins_to_slide),
 ]
 """A claim and a change that fails it, at least one for each part of the claim."""
