@@ -98,20 +98,19 @@ class DampedPair:
         return found
 
     def threshold(self) -> float:
-        """The drag at which the growth ends, in 1/t_0; NaN if it does not up to 50 ω_i."""
-        now = self._undamped
+        """The drag at which the growth ends, in 1/t_0; NaN if it does not up to 50 ω_i, or if the
+        root is lost before."""
+        now = before = self._undamped
         last = MAX_THRESHOLD * now.growth_rate
-        while now.growth_rate > 0.0 and now.drag < last:
-            before = now
-            try:
-                now = self._follow(before, self._next_drag(before))
-            except ArithmeticError:
+        try:
+            while now.growth_rate > 0.0 and now.drag < last:
+                before, now = now, self._follow(now, self._next_drag(now))
+            if now.growth_rate > 0.0:
                 return np.nan
-        if now.growth_rate > 0.0:
+            ends = before.drag, now.drag
+            return float(brentq(lambda drag: self._root(before, drag).growth_rate, *ends))
+        except ArithmeticError:
             return np.nan
-        return float(
-            brentq(lambda drag: self._root(before, drag).growth_rate, before.drag, now.drag)
-        )
 
     def _next_drag(self, now: DampedMode) -> float:
         step = DRAG_STEP * self._undamped.growth_rate

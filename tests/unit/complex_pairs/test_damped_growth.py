@@ -93,3 +93,17 @@ def test_a_mode_that_no_drag_acts_on_has_no_threshold():
     assert np.isnan(pair.threshold())
     rate = np.sqrt(values[0]).imag
     assert pair.rates(np.array([9.0 * rate]))[0] == pytest.approx(rate, rel=1e-6)
+
+
+def test_a_root_that_is_lost_on_the_way_to_the_threshold_has_none(monkeypatch):
+    """The release of the state goes on; the last steps are those of a bisection."""
+    pair, found, largest = pairs("translations")[0][1], DampedPair._root, [0.0]
+
+    def lost_below(self, start, drag):
+        if drag < largest[0]:
+            raise ArithmeticError("root lost")
+        largest[0] = drag
+        return found(self, start, drag)
+
+    monkeypatch.setattr(DampedPair, "_root", lost_below)
+    assert np.isnan(pair.threshold())
