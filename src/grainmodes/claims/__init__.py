@@ -11,7 +11,7 @@ from grainmodes.ensemble import open_ensemble
 from grainmodes.ensemble.lost import lost_in_words, lost_samples
 
 CLAIMS: tuple[Claim, ...] = (*paper_a.CLAIMS, *paper_b.CLAIMS, *paper_c.CLAIMS, *own.CLAIMS)
-"""A1 to A22, B1 to B14, C1 to C9, last G1 to G4."""
+"""A1 to A22, B1 to B14, C1 to C16, last G1 to G4."""
 
 
 def check(ensemble, claims: tuple[Claim, ...] = CLAIMS) -> list[Verdict]:

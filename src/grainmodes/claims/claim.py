@@ -154,7 +154,8 @@ def _judged(function: Callable, ensemble: xr.Dataset) -> tuple[Part | None, str,
 def _summary(parts: list[Part], same: list[Part], verdict: str) -> str:
     """How many parts have the verdict, and a list of them."""
     named = "; ".join(f"{part.where}: {part.printed}" for part in same[:MAX_NAMED_PARTS])
-    rest = "; ..." if len(same) > MAX_NAMED_PARTS else ""
+    others = len(same) - MAX_NAMED_PARTS
+    rest = f"; and {others} more" if others > 0 else ""
     verb, first = SUMMARIES[verdict]
     order = f", the {first} first" if len(same) > 1 else ""
     return f"Parts that {verb}: {len(same)} of {len(parts)}{order}. {named}{rest}."

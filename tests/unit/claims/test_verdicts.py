@@ -1,5 +1,7 @@
 """Every claim holds where it should, and falls, alone, where one number is changed."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -167,3 +169,17 @@ def test_one_packing_without_rigidity_decides_no_median():
 def test_the_peak_is_reported_as_what_it_is():
     ensemble = claim_fixtures.ensemble()
     assert "% beside ω_R" in verdicts(ensemble)["A9"].explanation
+
+
+@pytest.mark.parametrize("kts", [[0.0], [1e-8], [1.0], [0.0, 1e-8]])
+def test_explanations_of_few_stiffnesses_are_whole_sentences(kts):
+    """No list in them is empty, and no part stands there twice."""
+    ensemble = claim_fixtures.ensemble().sel(kt=kts)
+    for verdict in verdicts(ensemble).values():
+        text = verdict.explanation.replace(" ... ", " to ")
+        assert not re.findall(r" [.,;]|  |\.\.| $", text), text
+        assert len(set(_listed(text))) == len(_listed(text)), text
+
+
+def _listed(explanation):
+    return re.findall(r"(?:first\. |; )([^;]+?): ", explanation)

@@ -55,13 +55,13 @@ def nonaffine_sign_change(ensemble: xr.Dataset) -> Outcome:
             _growth(samples, kappa, phis) for kappa in _ends(samples, phis) if len(phis) > 1
         ],
     }
-    return Outcome(parts, f"{_crossings(samples)} {_loading(samples)}")
+    return Outcome(parts, " ".join(filter(None, (_crossings(samples), _loading(samples)))))
 
 
 def _ends(samples: Samples, phis: list[float]) -> list[float]:
     """The smallest and the largest k_T with samples at the lowest and at the highest φ."""
     kappas = samples.common_kappas("g_nonaffine", (phis[0], phis[-1]))
-    return [kappas[0], kappas[-1]] if kappas else []
+    return list(dict.fromkeys((*kappas[:1], *kappas[-1:])))
 
 
 def _mean(samples: Samples, phi: float, kappa: float) -> Estimate:

@@ -99,13 +99,13 @@ def _peaks_and_chi_squared(peaks: dict[float, Estimate], counts: dict[float, np.
     if not counts:
         return ""
     first, *others = counts
-    chi = (f"{_chi_squared(counts[k], counts[first]):.2g} at κ = {k:g}" for k in others)
     listed = ", ".join(f"{peak} at κ = {kappa:g}" for kappa, peak in peaks.items())
     beside = max((abs(peak.value - 1.0) for peak in peaks.values()), default=0.0)
-    return (
-        f"The peak lies at ω/ω_R = {listed}, up to {100 * beside:.0f} % beside ω_R. With "
-        f"independent errors, χ² per bin of two curves is {', '.join(chi)}."
-    )
+    note = f"The peak lies at ω/ω_R = {listed}, up to {100 * beside:.0f} % beside ω_R."
+    if not others:
+        return note
+    chi = ", ".join(f"{_chi_squared(counts[k], counts[first]):.2g} at κ = {k:g}" for k in others)
+    return f"{note} With independent errors, χ² per bin of two curves is {chi}."
 
 
 def _chi_squared(counts: np.ndarray, reference: np.ndarray) -> float:
