@@ -153,9 +153,9 @@ def contacts_at_the_threshold(ensemble: xr.Dataset) -> Outcome:
     """
     parts: list[Part] = []
     notes: list[str] = []
-    names = ("growth_sliding", "start_sliding", "after_sliding")
-    for states, reached in _reaching(ensemble, notes, *names):
-        growth, after = (states.undamped(f"{when}_sliding")[reached] for when in ("growth", "after"))
+    names = ("growth_sliding", "after_sliding")
+    for states, reached in _reaching(ensemble, notes, "start_sliding", *names):
+        growth, after = (states.undamped(name)[reached] for name in names)
         risen = growth - states.values["start_sliding"][reached]
         risen = share(np.where(np.isfinite(risen), risen > 0.0, np.nan))
         parts.append(Part(f"end of the growth, {states.where}", risen, low=HALF))
