@@ -166,16 +166,7 @@ def files_of(room, points):
 
 def samples_of(name):
     """The files of a stage that single samples are drawn from: of every point that requests it."""
-    stage = STAGES[name]
-    files = []
-    for point in scene.points_of(name):
-        names = {key: format_value(value) for key, value in vars(point).items()}
-        if stage.single_sample:
-            files.append(f"{STUDY}/{stage.output}/{POINT}".format(**names))
-        else:
-            blocks = scene.blocks_of(point.n, point.phi, point.kt)
-            files += expand(f"{STUDY}/{stage.output}/{RESPONSE}", seeds=blocks, **names)
-    return files
+    return [f"{STUDY}/{path}" for path in scene.files_of(name)]
 
 
 def figures():

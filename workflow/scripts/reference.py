@@ -6,36 +6,58 @@ the version of the code, and their SHA-256.
 
 from __future__ import annotations
 
+import json
 import sys
 from pathlib import Path
 
+import netCDF4
 import yaml
 
-from grainmodes.configuration import ConfigurationError, scene_from
-from grainmodes.ensemble.reference import FOLDER, write_reference
-from grainmodes.parameters.figures import FIGURES
+from grainmodes.configuration import ConfigurationError, Scene, scene_from
+from grainmodes.ensemble import reference
+from grainmodes.parameters.figures import FIGURES, FORMS
 
 
-def main(path: str) -> None:
+def main(arguments: list[str]) -> None:
     """Reduce the results of one scene.
 
     Raises:
-        SystemExit: the scene has mistakes, or its study is not finished.
+        SystemExit: no scene is given, the scene has mistakes, or its study is not finished.
     """
+    if len(arguments) != 1:
+        raise SystemExit("make reference: expected CONFIG=config/<scene>.yaml")
+    path = Path(arguments[0])
     try:
-        scene = scene_from(yaml.safe_load(Path(path).read_text(encoding="utf-8")))
-    except ConfigurationError as error:
+        scene = scene_from(yaml.safe_load(path.read_text(encoding="utf-8")))
+    except OSError as error:
+        raise SystemExit(f"{path}: {error.strerror}") from error
+    except (yaml.YAMLError, ConfigurationError) as error:
         raise SystemExit(f"{path}: the configuration has mistakes.\n{error}") from error
     results = Path("results") / scene.study
-    if not (results / "ensemble.nc").is_file():
-        raise SystemExit(f"{results}: expected a finished study, got no ensemble.nc")
-    stages = {FIGURES[name].source for name in scene.figures} - {"ensemble"}
+    stages = sorted({FIGURES[name].source for name in scene.figures} - {"ensemble"})
     sources = {"ensemble": [results / "ensemble.nc"]}
-    sources |= {stage: sorted((results / stage).rglob("*.nc")) for stage in sorted(stages)}
-    made = write_reference(Path(path), list(scene.figures), sources)
-    size = sum(file.stat().st_size for file in (FOLDER / made.study).iterdir())
-    print(f"{FOLDER / made.study}: {size / 1e6:.1f} MB, by {made.code_version}")
+    sources |= {stage: [results / file for file in scene.files_of(stage)] for stage in stages}
+    check_finished(scene, results, [file for files in sources.values() for file in files])
+    made = reference.write_reference(path, list(scene.figures), sources)
+    folder = reference.FOLDER / made.study
+    size = sum(file.stat().st_size for file in folder.iterdir())
+    print(f"{folder}: {size / 1e6:.1f} MB, by {made.code_version}")
+
+
+def check_finished(scene: Scene, results: Path, files: list[Path]) -> None:
+    """Check that a study has all its results, and that they belong to the scene.
+
+    Raises:
+        SystemExit: a file is missing, or the ensemble was made with other settings.
+    """
+    pictures = [results / f"figures/{name}.{form}" for name in scene.figures for form in FORMS]
+    for file in [*files, results / "checks.txt", results / "claims.md", *pictures]:
+        if not file.is_file():
+            raise SystemExit(f"{results}: expected a finished study, got no {file}")
+    with netCDF4.Dataset(results / "ensemble.nc") as ensemble:
+        if json.loads(ensemble.config) != json.loads(scene.summary()):
+            raise SystemExit(f"{results}: expected results of this scene, got those of another one")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[1:])

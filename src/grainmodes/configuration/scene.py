@@ -6,7 +6,7 @@ import json
 from dataclasses import asdict, dataclass, replace
 
 from grainmodes.configuration.grids import Grid, drawable
-from grainmodes.parameters.grid import Point, seed_blocks
+from grainmodes.parameters.grid import Point, format_value, seed_blocks
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.stages import STAGES
@@ -54,6 +54,17 @@ class Scene:
             for point in grid.points
             if entry.is_requested(grid.observables, point.kt)
         ]
+
+    def files_of(self, stage: str) -> list[str]:
+        """The files of a stage below the folder of the study, of every point that requests it."""
+        entry = STAGES[stage]
+        files = []
+        for point in self.points_of(stage):
+            place = "/".join(f"{name}~{format_value(value)}" for name, value in vars(point).items())
+            blocks = [] if entry.single_sample else self.blocks_of(point.n, point.phi, point.kt)
+            ends = [f"/seeds~{block}" for block in blocks] or [""]
+            files += [f"{entry.output}/{place}{end}.nc" for end in ends]
+        return files
 
     def grid_at(self, n: int, phi: float, kt: float) -> Grid:
         """The grid of a point; the first for a point off the grids."""

@@ -112,17 +112,19 @@ def write_reference(scene: Path, figures: list[str], sources: dict[str, list[Pat
         OSError: a file cannot be read or written.
     """
     study = yaml.safe_load(scene.read_text(encoding="utf-8"))["study"]
-    home = FOLDER / study
-    shutil.rmtree(home, ignore_errors=True)
+    home, new = FOLDER / study, FOLDER / f".{study}.partial"
+    shutil.rmtree(new, ignore_errors=True)
     files: dict[str, dict[str, str]] = {}
     for source, paths in sources.items():
         for number, path in enumerate(paths):
             name = f"{source}.nc" if source == "ensemble" else f"{source}_{number}.nc"
-            reduce(path, home / name)
-            files.setdefault(source, {})[name] = _sha256(home / name)
-    shutil.copyfile(scene, home / "scene.yaml")
+            reduce(path, new / name)
+            files.setdefault(source, {})[name] = _sha256(new / name)
+    shutil.copyfile(scene, new / "scene.yaml")
     with netCDF4.Dataset(sources["ensemble"][0]) as ensemble:
         code_version = str(ensemble.code_version)
+    shutil.rmtree(home, ignore_errors=True)
+    new.replace(home)
     made = Reference(study, "scene.yaml", code_version, sorted(figures), files)
     entries = references() | {study: made}
     index = {

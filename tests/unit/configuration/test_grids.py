@@ -44,6 +44,9 @@ def test_grids_have_their_own_observables_and_seeds():
     assert scene.responses(16, 0.85, 1.0)[2:] == ["spectrum", "spectrum_rattlers"]
     assert scene.blocks_of(16, 0.85, 1.0) == ["0000-0003"]
     assert scene.blocks_of(16, 0.9, 1.0) == ["0000-0003", "0004-0007"]
+    assert scene.files_of("spectrum_rattlers") == [
+        f"spectrum_rattlers/n~{n}/phi~0.85/kt~1.0/seeds~0000-0003.nc" for n in (16, 64)
+    ]
     for off in [(32, 0.9, 1.0), (16, 0.85, 1e-4), (16, 0.873, 1.0)]:
         assert scene.responses(*off) == ["rigidity", "step_strain"]
         assert len(scene.blocks_of(*off)) == 2

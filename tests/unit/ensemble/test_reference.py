@@ -1,14 +1,18 @@
 """Reference ensembles: reduced, checked, and good for figures and claims."""
 
+import runpy
 from pathlib import Path
 
+import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
+import yaml
 
 import synthetic
 from grainmodes.claims import first_tested
 from grainmodes.cli import main
+from grainmodes.configuration import scene_from
 from grainmodes.dataset.files import BlockError
 from grainmodes.ensemble import reference
 
@@ -84,3 +88,53 @@ def test_the_references_of_the_package_are_whole():
     for one in reference.references().values():
         for source in one.files:
             assert reference.files_of(one, source)
+
+
+def test_an_interruption_leaves_the_old_reference(folder, whole, monkeypatch):
+    monkeypatch.setattr(reference, "FOLDER", folder)
+    before = (folder / "small/ensemble.nc").read_bytes()
+    monkeypatch.setattr(reference, "_copy", lambda *_: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        reference.write_reference(folder / "small_scene.yaml", ["dos"], {"ensemble": [whole]})
+    assert (folder / "small/ensemble.nc").read_bytes() == before
+
+
+SCRIPT = Path(__file__).parents[3] / "workflow/scripts/reference.py"
+SCENE = """
+study: tiny
+grids: [{n: [16], phi: [0.9], kt: [1.0], seeds: 2, observables: {spectrum: none, fields: true}}]
+figures: [g_phi, affine_fields]
+"""
+
+
+def test_only_a_finished_study_becomes_a_reference(whole, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(reference, "FOLDER", tmp_path / "references")
+    make = runpy.run_path(str(SCRIPT))["main"]
+    with pytest.raises(SystemExit, match="expected CONFIG="):
+        make([])
+    with pytest.raises(SystemExit, match=r"tiny\.yaml: No such file"):
+        make(["tiny.yaml"])
+    Path("tiny.yaml").write_text(SCENE)
+    pictures = [
+        f"figures/{name}.{form}"
+        for name in ("g_phi", "affine_fields")
+        for form in ("png", "pdf", "csv", "txt")
+    ]
+    sample = "fields/n~16/phi~0.9/kt~1.0.nc"
+    for name in ("ensemble.nc", sample, "checks.txt", "claims.md", *pictures):
+        file = Path("results/tiny") / name
+        with pytest.raises(SystemExit, match=f"expected a finished study, got no {file}"):
+            make(["tiny.yaml"])
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(whole.read_bytes())
+    with pytest.raises(SystemExit, match="got those of another one"):
+        make(["tiny.yaml"])
+    with netCDF4.Dataset("results/tiny/ensemble.nc", "a") as ensemble:
+        ensemble.config = scene_from(yaml.safe_load(SCENE)).summary()
+    stray = Path("results/tiny/fields/n~32/phi~0.9/kt~1.0.nc")
+    stray.parent.mkdir(parents=True)
+    stray.write_bytes(whole.read_bytes())
+    make(["tiny.yaml"])
+    assert "references/tiny: " in capsys.readouterr().out
+    assert list(reference.reference_named("tiny").files["fields"]) == ["fields_0.nc"]
