@@ -30,7 +30,7 @@ def data_page(text: str) -> str:
         rows.append(f"| `{name}` | {dimensions} | {variable.unit.text()} | {meaning} |\n")
     head = "| name | dimensions | units | meaning |\n| --- | --- | --- | --- |\n"
     text = re.sub(re.escape(head) + r"(\|.*\n)+", lambda _: head + "".join(rows), text)
-    outputs = ", ".join(stage.output for stage in STAGES.values())
+    outputs = ", ".join(dict.fromkeys(stage.output for stage in STAGES.values()))
     row = f"| `stage` | blocks, points | {outputs} or point |"
     return re.sub(r"^\| `stage` \| blocks, points \|.*$", lambda _: row, text, flags=re.MULTILINE)
 
