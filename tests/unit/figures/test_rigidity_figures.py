@@ -1,10 +1,12 @@
 """The plotted moduli against those of the ensemble."""
 
+from matplotlib.figure import Figure
 from numpy.testing import assert_allclose, assert_array_equal
 
 import synthetic
 from grainmodes.ensemble import open_ensemble, write_ensemble
 from grainmodes.figures import draw
+from grainmodes.figures.own import rigidity_exponent
 from grainmodes.figures.paper_a import g_kt, g_nonaffine, g_phi
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.selection import Options
@@ -50,3 +52,22 @@ def test_simulation_is_left_out_where_the_study_has_none(tmp_path):
     with open_ensemble(path) as dataset:
         assert set(g_kt.table(dataset, Options())["kind"]) == {"theory"}
     draw("g_kt", path, tmp_path / "g_kt", {})
+
+
+def test_a_mean_that_is_not_positive_is_named_instead_of_drawn(ensemble):
+    table = rigidity_exponent.table(ensemble, Options())
+    lowest = table.index[table["kt"] == 0.0][0]
+    table.loc[lowest, "rigidity"] = -1e-4
+    figure = Figure()
+    rigidity_exponent.draw(figure, table)
+    drawn = sum(len(bars[0].get_xdata()) for bars in figure.axes[0].containers)
+    assert drawn == len(table) - 1
+    text = str(rigidity_exponent.caption(table))
+    assert f"φ = {table['phi'][lowest]:g} at k_T/k_N = 0" in text
+
+
+def test_no_mean_is_positive(ensemble):
+    table = rigidity_exponent.table(ensemble, Options()).assign(rigidity=-1.0)
+    figure = Figure()
+    rigidity_exponent.draw(figure, table)
+    assert "No mean of G is positive" in figure.axes[0].texts[0].get_text()

@@ -86,11 +86,14 @@ def _rows(ensemble: xr.Dataset, n: int, kappa: float) -> list[dict[str, float]]:
 
 def caption(table: pd.DataFrame) -> Caption:
     """What is drawn, and what to look at."""
+    hidden = table.loc[table["rigidity"] <= 0.0, ["phi", "kt"]].to_numpy()
+    named = ", ".join(f"φ = {phi:g} at k_T/k_N = {kt:g}" for phi, kt in hidden)
+    without = f" Not drawn, because the mean is not positive: {named}." if named else ""
     return Caption(
         "Mean rigidity G against the mean distance to jamming, φ − φ_J with φ_J of each sample, a "
         "colour per k_T/k_N; in the legend the exponent β of G ∝ (φ − φ_J)^β, the mean over the "
         "seeds of the slope of log G. Dashed lines: slopes 1/2, that of the stiffness of a "
-        "Hertzian contact, and 1. Bars: standard errors.",
+        f"Hertzian contact, and 1. Bars: standard errors.{without}",
         "the slopes: near 1 without friction, one and the same between 1/2 and 1 at every "
         "k_T/k_N ≥ 1; whether a curve is straight, or steeper near jamming.",
     )
@@ -98,6 +101,10 @@ def caption(table: pd.DataFrame) -> Caption:
 
 def draw(figure: Figure, table: pd.DataFrame) -> None:
     """Draw a curve per k_T."""
+    table = table[table["rigidity"] > 0.0]
+    if table.empty:
+        labels.say_empty(figure, ["No mean of G is positive."])
+        return
     axes = figure.subplots()
     for kt, colour, marker in appearance.curve_styles(sorted(table["kt"].unique())):
         _curve(axes, table[table["kt"] == kt], kt, colour, marker)
