@@ -76,7 +76,7 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
             table = module.table(source, chosen)
         except (BlockError, ValueError):
             # A variable, or all values of a coordinate, are gone together with their samples.
-            if options or not short:
+            if options or not any(shortage.used == 0 for shortage in short):
                 raise
             table = pd.DataFrame(columns=list(module.COLUMNS))
         law = law_of(source[0]) if isinstance(source, list) else contact_law(source)

@@ -12,7 +12,7 @@ from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.first_event import bracket_first_event, refined_steps
 from grainmodes.protocols.shear.quasistatic_run import QuasistaticRun
 from grainmodes.stages.long_runs import CheckpointStore, run_to_end
-from grainmodes.stages.rows import loss, response_block
+from grainmodes.stages.rows import SAMPLE_ERRORS, loss, response_block
 from grainmodes.stages.samples import jammed_packing, seed_of
 from grainmodes.stages.shear_rows import (
     bracket_ends,
@@ -65,7 +65,7 @@ def shear_block(
             }.items():
                 try:
                     row |= further()
-                except ArithmeticError as error:
+                except SAMPLE_ERRORS as error:
                     errors[part] = error
         lost = loss(errors)
         return row | {"converged": not lost} | lost

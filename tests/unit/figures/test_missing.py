@@ -78,6 +78,19 @@ def test_a_point_that_is_lost_as_a_whole_is_told_where_it_would_have_been(tmp_pa
     ]
 
 
+def test_an_error_is_not_taken_for_a_lost_sample(tmp_path, monkeypatch):
+    """One sample of four is lost, which explains no error of the figure."""
+
+    def broken(ensemble, options):
+        raise ValueError("broken on purpose")
+
+    monkeypatch.setattr("grainmodes.figures.paper_a.g_phi.table", broken)
+    path = ensemble_that_lost(tmp_path, {(0.9, 1.0): [2]})
+    with pytest.raises(ValueError, match="broken on purpose"):
+        draw("g_phi", path, tmp_path / "g_phi", {})
+    assert not (tmp_path / "g_phi.png").exists()
+
+
 SPECTRAL = ("participation", "dos", "dos_scaled", "dos_hessian", "dos_rattlers", "dos_phi")
 
 

@@ -18,6 +18,7 @@ from grainmodes.dataset.files import Block, read_block, write_block
 from grainmodes.ensemble.point import merge_blocks
 from grainmodes.kernels.laws import Harmonic, Interaction
 from grainmodes.linalg.pinned_factor import FloppyError
+from grainmodes.packing.box import PackingError
 from grainmodes.packing.contacts import History
 from grainmodes.packing.forces import max_force_and_torque, net_force
 from grainmodes.packing.state import Packing
@@ -236,3 +237,18 @@ def test_the_checks_of_the_first_event_are_there():
     assert 0.0 <= values["loop_left"] < 1e-2 * values["loop_slide"]
     assert 1e-4 < values["last_path_turn"] < values["last_path_error"] <= 1.0
     assert values["last_path_increment"] < 1e-12
+
+
+def test_a_check_of_the_first_event_that_fails_leaves_the_curve(monkeypatch):
+    def broken(*_):
+        raise PackingError("two grains lie at the same place")
+
+    monkeypatch.setattr("grainmodes.stages.shear.history_row", broken)
+    packing = reference(LOOSE)[1]
+    choices = replace(CHOICES, strain=0.03, step=1e-3)
+    found = shear_block(packings(packing), LAW, choices, coarse_run=True)
+    lost = found.mapping("failures")["shear"]["0"]
+    assert lost == "closed loop: PackingError: two grains lie at the same place"
+    assert found.variables["converged"][0] == 0
+    assert found.variables["curve_count"][0] > 1
+    assert np.isfinite(found.variables["last_path_error"][0])

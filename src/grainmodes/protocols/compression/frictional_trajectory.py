@@ -26,6 +26,7 @@ tangential force.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 from grainmodes.kernels.damping import Drag
@@ -67,7 +68,8 @@ class FrictionalPress:
 
     def relax(self, packing: Packing, tolerance: float, max_steps: int) -> RelaxationResult:
         """Damped dynamics from rest until max|F̃| < `tolerance`, in at most so many time steps."""
-        time_step = self.choices.time_step / max(1.0, self.law.kt) ** 0.5
+        # Unlike a power, a square root is rounded in the same way everywhere.
+        time_step = self.choices.time_step / math.sqrt(max(1.0, self.law.kt))
         drag = Drag(self.choices.drag)
         return relax_damped(packing, self.interaction, drag, time_step, tolerance, max_steps)
 
