@@ -65,6 +65,18 @@ def test_a_study_without_an_unstable_state_still_has_its_figures(name, tmp_path)
     assert (tmp_path / f"{name}.pdf").exists()
 
 
+@pytest.mark.usefixtures("without_layout")
+@pytest.mark.parametrize("lacking", ["release_spectrum", "release_spectrum release_pair"])
+@pytest.mark.parametrize("name", ["release_spectrum", "release_times"])
+def test_figures_of_runs_without_spectra(name, lacking, release, tmp_path):
+    """Large systems have no spectra, and with `spectra: 0` the pair is not followed either."""
+    prefixes = (*lacking.split(), *(["release_death"] if "pair" in lacking else []))
+    kept = {key: values for key, values in release.variables.items() if not key.startswith(prefixes)}
+    write_block(tmp_path / "block.nc", Block(kept, release.attributes))
+    draw(name, [tmp_path / "block.nc"], tmp_path / name, {})
+    assert (tmp_path / f"{name}.pdf").exists()
+
+
 def test_growth_shows_records_and_the_laws_through_them(release):
     rows, values = release_growth.table([release], Options()), release.variables
     known = np.isfinite(values["release_time"][0, 1, 0])

@@ -60,8 +60,9 @@ def table(releases: list[Block], options: Options) -> pd.DataFrame:
 def _row(state: ReleasedState) -> pd.DataFrame:
     runs = ("end_time", "change_time", "second_time", "end_square", "change_square")
     values = {name: state.first(name) for name in runs}
-    death = {"death_time": float(state.values("death_time"))}
-    return pd.DataFrame([state.identity() | values | death])
+    followed = state.values("death_time")  # none without spectra
+    values["death_time"] = float(followed) if followed.size else np.nan
+    return pd.DataFrame([state.identity() | values])
 
 
 def caption(table: pd.DataFrame) -> Caption:
