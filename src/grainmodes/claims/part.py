@@ -100,7 +100,8 @@ class Part(NamedTuple):
     def printed(self) -> str:
         """The number, and the samples that have none."""
         without = self.measured.left_out
-        return f"{self.measured}" + f" ({without} samples without a number)" * (without > 0)
+        samples = "sample" if without == 1 else "samples"
+        return f"{self.measured}" + f" ({without} {samples} without a number)" * (without > 0)
 
 
 def verdicts_of(parts: list[Part]) -> list[str]:

@@ -74,9 +74,13 @@ def complete(*rows: np.ndarray) -> np.ndarray:
 
 
 def mean(values: np.ndarray) -> Estimate:
-    """Mean and standard error of (S,) values; NaN are left out."""
+    """Mean and standard error of (S,) values.
+
+    NaN are left out, and so are infinite values, such as the logarithm of 0, which are counted.
+    """
     average = averages.average(values, np.isfinite(values))
-    return Estimate(float(average.mean), float(average.standard_error), int(average.samples) - 1)
+    infinite, freedom = int(np.isinf(values).sum()), int(average.samples) - 1
+    return Estimate(float(average.mean), float(average.standard_error), freedom, infinite)
 
 
 def difference_of_means(first: np.ndarray, second: np.ndarray) -> Estimate:

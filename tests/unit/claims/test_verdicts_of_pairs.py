@@ -91,3 +91,12 @@ def test_other_kinds_than_coalescences_are_left_out():
     found = verdicts(ensemble)["C2"]
     assert found.verdict == HOLDS
     assert "births" not in found.explanation
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("name", ["converged", "jammed"])
+def test_lost_samples_are_left_out_without_a_warning(name):
+    ensemble = claim_fixtures_pairs.ensemble()
+    ensemble[name] = ensemble[name].where(~ensemble["seed"].isin([0, 3]), 0)
+    found = verdicts(ensemble)
+    assert {found[name].verdict for name in NAMES} == {HOLDS}

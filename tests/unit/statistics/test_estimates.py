@@ -22,6 +22,11 @@ def test_the_jackknife_of_a_mean_is_its_standard_error():
     assert mean(values).error == pytest.approx(values.std(ddof=1) / 7**0.5)
 
 
+def test_infinite_values_are_left_out_of_a_mean_and_counted():
+    found = mean(np.array([1.0, 3.0, -np.inf, np.nan]))
+    assert found == Estimate(2.0, 1.0, 1, left_out=1)
+
+
 def test_what_packings_share_drops_out_of_a_paired_difference():
     reference = np.random.default_rng(4).normal(5.0, 2.0, 8)
     found = relative_difference(1.02 * reference, reference)

@@ -49,7 +49,7 @@ def born_under_shear(ensemble) -> Outcome:
             where = f"N = {samples.n}, {label(*point)}"
             parts.append(Part(f"first state, {where}", mean(pairs[:, 0]), -0.5, 0.5))
             parts.append(Part(f"samples with births, {where}", share(_flags(births)), low=0.0))
-            per_strain = mean(births / np.nanmax(strain, axis=1) / samples.n)
+            per_strain = mean(births / np.fmax.reduce(strain, axis=1) / samples.n)
             notes.append(
                 f"At {where} a sample has {per_strain} births per unit of strain and grain; the "
                 f"last state has {mean(_last(pairs))} pairs."
