@@ -8,7 +8,13 @@ import pytest
 import claim_fixtures
 from claim_mutants import MUTANTS, SECOND_MUTANTS, no_overlap, spread_rattlers
 from grainmodes.claims import check
-from grainmodes.claims.claim import CONTRADICTED, HOLDS, NOT_COMPARABLE, NOT_TESTED
+from grainmodes.claims.claim import (
+    CONTRADICTED,
+    HOLDS,
+    NOT_COMPARABLE,
+    NOT_RESOLVED,
+    NOT_TESTED,
+)
 from grainmodes.claims.paper_a import CLAIMS
 
 NAMES = [f"A{number}" for number in range(1, 23)]
@@ -183,3 +189,10 @@ def test_explanations_of_few_stiffnesses_are_whole_sentences(kts):
 
 def _listed(explanation):
     return re.findall(r"(?:first\. |; )([^;]+?): ", explanation)
+
+
+def test_many_modes_of_few_packings_are_no_independent_samples():
+    """Four seeds at three φ, two modes each: four of four seeds, not 24 of 24 modes."""
+    found = verdicts(claim_fixtures.ensemble().isel(seed=range(4)))["A13"]
+    assert found.verdict == NOT_RESOLVED
+    assert "4 of 4 [0.40, 1.00]" in found.printed
