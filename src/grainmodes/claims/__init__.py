@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from grainmodes.claims import own, paper_a, paper_b, paper_c
@@ -28,12 +29,15 @@ def check(ensemble, claims: tuple[Claim, ...] = CLAIMS) -> list[Verdict]:
 def first_tested(paths: list[Path]) -> tuple[list[Verdict], str]:
     """The verdict on every claim by the first of some ensembles that tests it, and their remarks.
 
+    Of several ensembles, the explanation names the one that decided, which for a claim that none of
+    them tests is the first with some of its parts.
+
     Raises:
         BlockError: a file is not readable, or not an ensemble.
         ValueError: there is no ensemble.
     """
     if not paths:
-        raise ValueError("claims: expected at least one ensemble, got none")
+        raise ValueError("expected at least one ensemble, got none")
     verdicts: list[Verdict] = []
     remarks = []
     for path in paths:
@@ -41,10 +45,19 @@ def first_tested(paths: list[Path]) -> tuple[list[Verdict], str]:
             found = check(opened)
             remarks_here = (points_left_out(opened), lost_in_words(lost_samples(opened)))
         remark = " ".join(filter(None, remarks_here))
-        kept = verdicts or found
-        verdicts = [
-            new if old.verdict == NOT_TESTED else old for old, new in zip(kept, found, strict=True)
-        ]
-        if remark:
-            remarks.append(remark if len(paths) == 1 else f"{path.parent.name}: {remark}")
+        if len(paths) > 1:
+            found = [_named(verdict, path.parent.name) for verdict in found]
+            remark = remark and f"{path.parent.name}: {remark}"
+        verdicts = [_earlier(*pair) for pair in zip(verdicts or found, found, strict=True)]
+        remarks += [remark] if remark else []
     return verdicts, " ".join(remarks)
+
+
+def _named(verdict: Verdict, study: str) -> Verdict:
+    return replace(verdict, explanation=f"Ensemble {study}: {verdict.explanation}")
+
+
+def _earlier(old: Verdict, new: Verdict) -> Verdict:
+    """The verdict of the earlier ensemble, unless only the later one tests the claim, or a part."""
+    tests_more = new.verdict != NOT_TESTED or bool(new.where and not old.where)
+    return new if old.verdict == NOT_TESTED and tests_more else old

@@ -53,7 +53,18 @@ def test_verdicts_are_those_of_the_whole_ensemble(whole, folder):
 
 def test_the_first_ensemble_that_tests_a_claim_decides_it(whole, tmp_path):
     bare = synthetic.ensemble(tmp_path, phis=(0.9,), kts=(1.0,), stages=("packings", "rigidity"))
-    assert first_tested([bare, whole])[0][7].verdict == first_tested([whole])[0][7].verdict
+    found = first_tested([bare, whole])[0][7]
+    assert found.verdict == first_tested([whole])[0][7].verdict
+    assert found.explanation.startswith(f"Ensemble {whole.parent.name}: ")
+
+
+def test_what_a_claim_lacks_is_that_of_the_ensemble_with_parts_of_it(whole, tmp_path):
+    """A1 lacks damped dynamics in `whole`, and everything in an ensemble of packings alone."""
+    bare = synthetic.ensemble(tmp_path, phis=(0.9,), kts=(1.0,), stages=("packings", "rigidity"))
+    needed = first_tested([whole])[0][0].needed
+    assert "g_forward_damped" in needed
+    for paths in ([bare, whole], [whole, bare]):
+        assert first_tested(paths)[0][0].needed == needed
 
 
 def test_a_changed_file_is_refused(folder, tmp_path, monkeypatch):
