@@ -71,7 +71,9 @@ def test_a_study_without_an_unstable_state_still_has_its_figures(name, tmp_path)
 def test_figures_of_runs_without_spectra(name, lacking, release, tmp_path):
     """Large systems have no spectra, and with `spectra: 0` the pair is not followed either."""
     prefixes = (*lacking.split(), *(["release_death"] if "pair" in lacking else []))
-    kept = {key: values for key, values in release.variables.items() if not key.startswith(prefixes)}
+    kept = {
+        key: values for key, values in release.variables.items() if not key.startswith(prefixes)
+    }
     write_block(tmp_path / "block.nc", Block(kept, release.attributes))
     draw(name, [tmp_path / "block.nc"], tmp_path / name, {})
     assert (tmp_path / f"{name}.pdf").exists()
