@@ -25,13 +25,17 @@ from grainmodes.dataset.files import Block, write_block
 from grainmodes.ensemble import gather_point, open_ensemble, write_ensemble
 from grainmodes.ensemble.lost import lost_samples
 from grainmodes.figures import draw
-from grainmodes.parameters.compression import Compression
+from grainmodes.parameters.compression import Compression, FrictionalCompression
 from grainmodes.parameters.figures import FIGURES
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.stages import STAGES
 from grainmodes.parameters.strain import Shear
 from grainmodes.stages import load
+from grainmodes.stages.frictional_compression import (
+    frictional_compress_block,
+    frictional_packing_block,
+)
 
 from .conftest import CHECKOUT, SCENE
 
@@ -216,6 +220,24 @@ def test_its_figure_says_one_of_two(broken, stage, tmp_path):
 def test_the_page_of_claims_names_it(broken, stage):
     page = (broken / "claims.md").read_text(encoding="utf-8")
     assert f"failed in {STAGES[stage].output} (" in page.partition("\n\n|")[0]
+
+
+@pytest.mark.parametrize(("jammed", "result"), [(0, "passed"), (1, "failed")])
+def test_grains_that_creep_below_jamming_are_no_failure(tmp_path, jammed, result):
+    """Compressed with friction they never come to rest; those that carry a load do."""
+    law = ContactLaw("hertz", "smoothed_coulomb", 1e-2, 0.1)
+    choices = law, Compression(phi_step=0.01), FrictionalCompression(max_steps=200)
+    start = frictional_compress_block(N, range(2), 0.8, *choices, None)
+    packings = frictional_packing_block(start, 0.8, *choices)
+    assert (packings.variables["max_force"] > 1e-10).all()
+    assert not packings.variables["jammed"].any()
+    packings.variables["jammed"][:] = jammed
+    write_block(tmp_path / "packings.nc", packings)
+    write_block(tmp_path / "point.nc", gather_point([tmp_path / "packings.nc"]))
+    config = {"study": "creep", "protocol": {"compression": {"force_tolerance": 1e-14}}}
+    write_ensemble([tmp_path / "point.nc"], tmp_path / "ensemble.nc", config)
+    checked(tmp_path)
+    assert f"{result}  forces balance" in (tmp_path / "checks.txt").read_text(encoding="utf-8")
 
 
 STUMBLE = """

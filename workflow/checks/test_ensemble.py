@@ -56,6 +56,8 @@ def test_most_samples_converged(ensemble, converged, requested):
 def test_forces_balance(ensemble, converged, protocol):
     _has(ensemble, "max_force")
     force = ensemble["max_force"].where(converged)
+    if "compressed_with_friction" in ensemble:  # grains that carry no load creep without an end
+        force = force.where((ensemble["compressed_with_friction"] == 0) | (ensemble["jammed"] == 1))
     assert not (force >= protocol["compression"]["force_tolerance"]).any()
 
 
