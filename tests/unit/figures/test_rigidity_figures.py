@@ -1,5 +1,6 @@
 """The plotted moduli against those of the ensemble."""
 
+import numpy as np
 from matplotlib.figure import Figure
 from numpy.testing import assert_allclose, assert_array_equal
 
@@ -71,3 +72,18 @@ def test_no_mean_is_positive(ensemble):
     figure = Figure()
     rigidity_exponent.draw(figure, table)
     assert "No mean of G is positive" in figure.axes[0].texts[0].get_text()
+
+
+def test_an_exponent_that_two_area_fractions_do_not_give_is_not_named(ensemble):
+    """The axis of φ − φ_J has numbers though it spans less than a decade."""
+    table = rigidity_exponent.table(ensemble, Options()).assign(exponent=np.nan)
+    table["distance"] = np.where(table["phi"] == table["phi"].max(), 0.055, 0.015)
+    figure = Figure()
+    rigidity_exponent.draw(figure, table)
+    (axes,) = figure.axes
+    assert not any("beta" in text.get_text() for text in axes.get_legend().get_texts())
+    figure.draw_without_rendering()
+    low, high = axes.get_xlim()
+    ticks = zip(axes.get_xticks(), axes.get_xticklabels(), strict=True)
+    shown = [label.get_text() for tick, label in ticks if low < tick < high]
+    assert shown == ["0.02", "0.05"]

@@ -13,7 +13,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
 
 from grainmodes.ensemble import contact_law
 from grainmodes.ensemble.trends import exponent, jammed_values
@@ -109,9 +108,9 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     for kt, colour, marker in appearance.curve_styles(sorted(table["kt"].unique())):
         _curve(axes, table[table["kt"] == kt], kt, colour, marker)
     _slopes(axes, table)
-    axes.set(xscale="log", yscale="log", xlabel=r"$\phi - \phi_J$")
+    axes.set(yscale="log", xlabel=r"$\phi - \phi_J$")
     axes.set_ylabel(labels.modulus_label("$G$", table))
-    axes.xaxis.set_minor_formatter(NullFormatter())
+    appearance.scale_logarithmically(axes)
     axes.legend(title=r"$k_T / k_N$", loc="lower right")
     labels.write_caption(figure, table)
 
@@ -121,8 +120,10 @@ def _curve(axes: Axes, curve: pd.DataFrame, kt: float, colour: tuple, marker: st
         curve["rigidity"].to_numpy(), curve["standard_error"].to_numpy()
     )
     axes.errorbar(curve["distance"], curve["rigidity"], bars, fmt=f"{marker}-", color=colour)
-    beta = value_with_error(*curve[["exponent", "exponent_error"]].iloc[0])
-    appearance.add_to_legend(axes, rf"${labels.ratio(kt)}$: $\beta = {beta}$", colour, marker)
+    value, error = curve[["exponent", "exponent_error"]].iloc[0]
+    known = np.isfinite(value)
+    beta = rf": $\beta = {value_with_error(value, error)}$" if known else ""
+    appearance.add_to_legend(axes, f"${labels.ratio(kt)}${beta}", colour, marker)
 
 
 def _slopes(axes: Axes, table: pd.DataFrame) -> None:

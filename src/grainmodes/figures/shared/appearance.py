@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import matplotlib.colors
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 RED, BLUE = "#b2182b", "#2166ac"
 """Two colours that colour-blind readers tell apart."""
@@ -21,6 +22,9 @@ OPEN_SYMBOLS = {"mfc": "none", "mew": 0.5, "markersize": 3.6}
 """Style of a curve that another curve covers: open symbols stay visible around those on top."""
 
 MARKERS = "osD^vPX*"
+
+SHORT_AXIS_RATIO = 200
+"""Ratio of the limits of an axis below which labels at powers of ten alone would be too few."""
 
 
 def curve_styles(values: list) -> Iterator[tuple]:
@@ -63,3 +67,13 @@ def logarithmic_limits(values) -> tuple[float, float]:
     The standard error of values that are not negative is at most their mean.
     """
     return values.min() / 3, values.max() * 3
+
+
+def scale_logarithmically(axes: Axes) -> None:
+    """Make the horizontal axis logarithmic, with labels that are enough also on a decade."""
+    axes.set_xscale("log")
+    low, high = axes.get_xlim()
+    if high < SHORT_AXIS_RATIO * low:
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())

@@ -12,7 +12,6 @@ from functools import partial
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from grainmodes.figures.shared import labels
 from grainmodes.figures.shared.appearance import (
@@ -21,13 +20,11 @@ from grainmodes.figures.shared.appearance import (
     draw_cloud,
     logarithmic_bars,
     logarithmic_limits,
+    scale_logarithmically,
 )
 
 PANEL_COLUMNS = 2
 DENSITY_LABEL = r"$D(\omega) / t_0$"
-
-SHORT_AXIS_RATIO = 200
-"""Ratio of the limits of an axis below which labels at powers of ten alone would be too few."""
 
 
 def draw_panels(
@@ -55,7 +52,7 @@ def draw_panels(
         draw(axes, table[table["kt"] == kt])
         labels.name_panel(axes, index, f"$k_T / k_N = {labels.ratio(kt)}$")
     for axes in panels:
-        _scale_frequencies(axes)
+        scale_logarithmically(axes)
     figure.supxlabel(r"$\omega t_0$", fontsize=10)
     figure.supylabel(ordinate, fontsize=10)
     labels.write_caption(figure, table, ("n", "phi"), note)
@@ -72,16 +69,6 @@ def _grid(figure: Figure, count: int) -> list[Axes]:
     for axes in grid.ravel()[count:]:
         axes.set_visible(False)
     return list(grid.ravel()[:count])
-
-
-def _scale_frequencies(axes: Axes) -> None:
-    """A logarithmic axis whose labels are enough also where it spans about a decade."""
-    axes.set_xscale("log")
-    low, high = axes.get_xlim()
-    if high < SHORT_AXIS_RATIO * low:
-        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axes.xaxis.set_major_formatter(FuncFormatter(lambda omega, _: f"{omega:g}"))
-    axes.xaxis.set_minor_formatter(NullFormatter())
 
 
 def draw_density_panels(
