@@ -40,6 +40,7 @@ def config_page(text: str) -> str:
     rows = []
     for stage in responses():
         notes = " Only at k_T > 0." if stage.needs_friction else ""
+        notes += " Not where `preparation` is frictional." if stage.needs_springs_at_rest else ""
         if STAGES[stage.reads].observable:
             notes += f" Computes `{STAGES[stage.reads].observable}` first."
         for key, rule in observable_keys([stage]).items():

@@ -141,7 +141,7 @@ ENTRIES = (
     ),
     Stage(
         "release",
-        "Dynamics from the unstable state of every sample, with and without damping (paper C).",
+        "Dynamics from the unstable states of every sample, with and without damping (paper C).",
         "grainmodes.stages.release:release_block",
         "release",
         arguments={"choices": "protocol.release"},
