@@ -99,3 +99,10 @@ def test_the_sign_change_is_measured_in_the_stiffness_of_the_law():
     assert found["G1"].verdict == CONTRADICTED
     assert found["G1"].where.startswith("κ* / 1,")
     assert found["G4"].verdict == NOT_TESTED
+
+
+def test_a_stiffness_just_below_5_is_judged_too():
+    ensemble = claim_fixtures.ensemble()
+    kts = ensemble["kt"].to_numpy()
+    found = verdicts(ensemble.assign_coords(kt=np.where(kts == 2.0, 4.5, kts)))["G2"]
+    assert "24 of 24" in found.explanation

@@ -196,3 +196,14 @@ def test_many_modes_of_few_packings_are_no_independent_samples():
     found = verdicts(claim_fixtures.ensemble().isel(seed=range(4)))["A13"]
     assert found.verdict == NOT_RESOLVED
     assert "4 of 4 [0.40, 1.00]" in found.printed
+
+
+@pytest.mark.parametrize(
+    ("name", "kappa", "parts"), [("A1", 1.5e-4, 36), ("A1", 0.7, 36), ("A7", 0.7, 9)]
+)
+def test_a_stiffness_that_no_study_of_a_has_is_judged_too(name, kappa, parts):
+    """κ = 0.01 of the ensemble is called by another name between the ranges of A."""
+    ensemble = claim_fixtures.ensemble()
+    kts = ensemble["kt"].to_numpy()
+    found = verdicts(ensemble.assign_coords(kt=np.where(kts == 1e-2, kappa, kts)))[name]
+    assert f"of {parts}" in found.explanation

@@ -49,18 +49,19 @@ def theory_is_simulation(ensemble: xr.Dataset) -> Outcome:
     samples = best_sampled(ensemble, "g", "g_simulated")
     limits = (-TOLERANCE, TOLERANCE)
 
-    def parts(low: float, high: float) -> list[Part]:
-        points = samples.points("g_simulated", low, high)
-        return [
-            Part(label(*p), _relative(samples, "g_simulated", "g", *p), *limits) for p in points
-        ]
-
-    groups = {
-        "a simulated rigidity at k_T/k_N ≤ 1e-4": parts(0.0, SMALL_KAPPA),
-        "a simulated rigidity at k_T/k_N ≥ 1": parts(LARGE_KAPPA, np.inf),
+    points = samples.points("g_simulated")
+    parts = {
+        p: Part(label(*p), _relative(samples, "g_simulated", "g", *p), *limits) for p in points
     }
-    if between := parts(2.0 * SMALL_KAPPA, 0.5 * LARGE_KAPPA):
-        groups["a simulated rigidity between"] = between
+    weak = samples.points("g_simulated", high=SMALL_KAPPA)
+    strong = samples.points("g_simulated", LARGE_KAPPA)
+    between = [point for point in points if point not in (*weak, *strong)]
+    groups = {
+        "a simulated rigidity at k_T/k_N ≤ 1e-4": [parts[point] for point in weak],
+        "a simulated rigidity at k_T/k_N ≥ 1": [parts[point] for point in strong],
+    }
+    if between:
+        groups["a simulated rigidity between"] = [parts[point] for point in between]
     if len(samples.phis("g_simulated")) < 2:
         groups["a simulated rigidity at two φ"] = []
     groups["g_forward_damped (claim_diagnostics at k_T/k_N ≥ 1)"] = _by_damped_dynamics(ensemble)
@@ -145,6 +146,7 @@ def translational_modes_suffice(ensemble: xr.Dataset) -> Outcome:
     Criterion: The relative difference of their sum and G is within ±1 % at k_T/k_N ≤ 1e-4.
     """
     samples = best_sampled(ensemble, "g_translational", "g")
+    small = samples.points("g_translational", ABOVE_ZERO, SMALL_KAPPA)
     parts = [
         Part(
             label(*point),
@@ -152,9 +154,9 @@ def translational_modes_suffice(ensemble: xr.Dataset) -> Outcome:
             -TOLERANCE,
             TOLERANCE,
         )
-        for point in samples.points("g_translational", ABOVE_ZERO, SMALL_KAPPA)
+        for point in small
     ]
-    above = samples.points("g_translational", 2.0 * SMALL_KAPPA)
+    above = [p for p in samples.points("g_translational", ABOVE_ZERO) if p not in small]
     differences = {p: _relative(samples, "g_translational", "g", *p) for p in above}
     listed = ", ".join(f"{value} at {label(*point)}" for point, value in differences.items())
     note = f"At larger k_T/k_N the difference is {listed}." if listed else ""

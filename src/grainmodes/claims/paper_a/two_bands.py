@@ -63,7 +63,8 @@ def pure_regions(ensemble: xr.Dataset) -> Outcome:
         Part(
             f"ψ^T in II at {label(phi, kappa)}", _purity(found, kappa, rotational=False), MIN_PURITY
         )
-        for kappa, found in within(spectra, ABOVE_ZERO, 0.5).items()
+        for kappa, found in spectra.items()
+        if kappa < MERGED_RANGE[0]
     ]
     return Outcome({"k_T/k_N ≤ 1e-4": rotational, "k_T/k_N < 1": translational})
 

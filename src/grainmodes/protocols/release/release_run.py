@@ -6,7 +6,7 @@ B damps translations alone (C, Sec. VII) or all motion. Velocity Verlet runs fro
 next. A state is recorded
 
 - in even intervals, `n_records` of them during the growth and as many longer ones to the end of the
-  run; before the first of them whenever the time has grown by a tenth;
+  run, and whenever the time has grown by a tenth;
 - densely in the first `EARLY_TURNS` turns of 2π/ω_r (C, Fig. 6 (a), (b)), and again once M has
   reached 1e-16 d², for `DENSE_TURNS` turns, `RECORDS_PER_TURN` times a turn;
 - in a film of `FRAMES` frames (C, Fig. 5), which starts at M = 1e-16 d² too and is about 2 / ω_i
