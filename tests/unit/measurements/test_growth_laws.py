@@ -10,6 +10,7 @@ from grainmodes.cost import GrowthLaw, read_table
 from grainmodes.cost.work import work
 from grainmodes.parameters.protocol import Protocol
 from grainmodes.parameters.spectra import SpectrumChoices
+from grainmodes.parameters.strain import Shear
 from measurements.benchmarks import growth, growth_laws
 
 
@@ -33,6 +34,8 @@ def test_every_law_of_the_table_is_used():
     every |= {"law_comparison", "complex_pairs"}
     used = {"trajectory", "frictional_trajectory", "equilibrate", "equilibrate_with_friction"}
     used |= every
+    every_state = Protocol(shear=Shear(lowest_eigenvalue="states"))
+    used |= set(work("shear", "none", 64, 1.0, every_state, TABLE))
     for factorisation in ("superlu", "pardiso"):
         choices = SpectrumChoices(factorisation=factorisation)
         for kind in ("counts", "binned_averages", "eigenvalues", "modes"):
