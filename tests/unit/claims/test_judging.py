@@ -86,6 +86,22 @@ def test_a_median_is_judged_by_the_samples_on_either_side():
     assert verdict(Part("", Median((1.0, 1.1, 1.2, 1.3, 1.4, 1e9)), 0.5)) == HOLDS
 
 
+@pytest.mark.parametrize(
+    ("number", "limits", "parts", "fewest"),
+    [
+        (lambda n: Share(0, n), (0.5, np.inf), 1, 8),
+        (lambda n: Share(0, n), (0.5, np.inf), 9, 11),
+        (lambda n: Median((5.0,) * n), (-1.0, 1.0), 1, 9),
+        (lambda n: Median((5.0,) * n), (-1.0, 1.0), 9, 12),
+    ],
+)
+def test_the_fewest_samples_that_contradict_are_those_of_the_docs(number, limits, parts, fewest):
+    """docs/claims.md, "How a verdict is reached"."""
+    for size, expected in ((fewest - 1, NOT_RESOLVED), (fewest, CONTRADICTED)):
+        found = verdicts_of([Part("", number(size), *limits)] * parts)
+        assert set(found) == {expected}
+
+
 def claim_with(parts, note=""):
     @claim("A0", unit="1")
     def some_numbers(_ensemble):

@@ -14,6 +14,7 @@ from grainmodes.parameters.factors import FACTORISATIONS
 from grainmodes.parameters.figures import FIGURES
 from grainmodes.parameters.law import NORMAL_LAWS, TANGENTIAL_LAWS
 from grainmodes.parameters.protocol import Protocol
+from grainmodes.parameters.release import DAMPED_MOTIONS
 from grainmodes.parameters.spectra import SPECTRA, SPECTRUM_METHODS
 from grainmodes.parameters.strain import LOWEST_EIGENVALUES, STRAIN_RELAXATIONS
 from scenes import CONFIG, GRID, scene_with
@@ -76,6 +77,7 @@ def test_defaults_are_those_of_the_protocol():
 
 
 CHOICES = {
+    DAMPED_MOTIONS,
     DETECTIONS,
     FACTORISATIONS,
     LOWEST_EIGENVALUES,

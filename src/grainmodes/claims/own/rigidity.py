@@ -43,8 +43,8 @@ SCALED_RANGE = (1.0, 2.0)
 """κ* in units of f_N' ξ / f_N, at every φ ≥ 0.85."""
 
 EXPONENT_RANGE = (0.5, 0.9)
-"""Between the exponent 1/2 of the stiffness of a Hertzian contact and 1, that of G without
-friction."""
+"""From the exponent 1/2 of the stiffness of a Hertzian contact to 0.1 below 1, that of G without
+friction: closer to 1 they are not told apart, as in claim A2."""
 
 LARGE_KAPPA = 1.0
 """k_T/k_N from which on friction is strong."""
