@@ -103,7 +103,7 @@ def loaded_step_only_softens(ensemble: xr.Dataset) -> Outcome:
     g_NA = -aᵀJ⁺a/L², which no J that is positive lets rise above 0: the positive G_NA is due to
     springs that the affine step leaves unloaded and the relaxation loads.
 
-    Asked of: every point with k_T > 0, among them k_T/k_N ≥ 5, where the unloaded G_NA is positive.
+    Asked of: every point with k_T > 0, among them k_T/k_N ≥ 5, where A finds an unloaded G_NA > 0.
 
     Criterion: The mean of the loaded G_NA is below 0 at every point.
     """
