@@ -126,7 +126,8 @@ def draw(figure: Figure, table: pd.DataFrame) -> None:
     for index, (axes, title) in enumerate(((upper, "pairs"), (lower, "released states"))):
         labels.name_panel(axes, index, title)
     rows = table[table["kind"] == "pairs"]
-    note = f"{rows['law'].iloc[0]} grains; {NOTE}"
+    grains = "Hertzian" if rows["law"].iloc[0] == "hertz" else "harmonic"
+    note = f"{grains} grains; {NOTE}"
     labels.write_caption(figure, rows, ("n", "phi", "kt"), note)
 
 
