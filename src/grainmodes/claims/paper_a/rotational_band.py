@@ -210,4 +210,7 @@ def _curves_apart(
             total.sum(axis=0) / count.sum(axis=0),
             other_total.sum(axis=0) / other_count.sum(axis=0),
         )
-    return float(np.nanmean(np.abs(curve - other)) / np.nanmean(other))
+    common = np.isfinite(curve) & np.isfinite(other)
+    if not common.any():
+        return np.nan
+    return float(np.mean(np.abs(curve - other)[common]) / np.nanmean(other))
