@@ -35,7 +35,7 @@ def seen(normal: str, tangential: str, mu: float | None = None) -> list[Compared
     """The states along the way under a law."""
     interaction = Interaction.from_law(ContactLaw(normal, tangential, KT, mu))
     found = shear_under_law(grains_of_c(normal), interaction, CHOICES)
-    assert not found.ending
+    assert found.failure is None
     return found.states
 
 
