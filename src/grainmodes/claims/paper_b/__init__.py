@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from grainmodes.claims.claim import Claim
-from grainmodes.claims.paper_b import events, methods, theory
+from grainmodes.claims.paper_b import before_events, events, methods, theory
 
 CLAIMS: tuple[Claim, ...] = (
     theory.theory_is_simulation,
     methods.independent_of_min_step,
-    events.jump_without_precursor,
-    events.no_singularity,
+    before_events.jump_without_precursor,
+    before_events.no_singularity,
     methods.critical_strain_converges,
     methods.tangential_integral,
     events.quadrupole_of_rotations,
