@@ -11,7 +11,7 @@ from grainmodes.configuration import Scene
 from grainmodes.cost.item import Item, Job
 from grainmodes.cost.packings import packings
 from grainmodes.cost.responses import responses
-from grainmodes.cost.table import GrowthLaw, Table
+from grainmodes.cost.table import Table
 
 
 def estimate(scene: Scene, table: Table) -> list[Item]:
@@ -26,10 +26,9 @@ def estimate(scene: Scene, table: Table) -> list[Item]:
 
 def _gathering(scene: Scene, table: Table, largest: int) -> Item:
     """Points, then the ensemble, its checks and figures: little more than starts of jobs."""
-    nothing = Job(0, 0.0, 0.0)
+    nothing = Job(0, 0.0, 0.0, 0.0, up_to=largest)
     chains = [[nothing] * 3, *([nothing] for _ in [*scene.points[1:], *scene.figures])]
-    free = GrowthLaw(0.0, 0.0, 0.0, 0.0, largest)
-    return Item.from_chains("gather", None, largest, chains, [free], table)
+    return Item.from_chains("gather", None, largest, chains, table)
 
 
 def wall_seconds(items: Iterable[Item], cores: int) -> float:

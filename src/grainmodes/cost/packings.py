@@ -9,7 +9,7 @@ of its seeds; a packing goes on from the checkpoint below it and is then balance
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import pairwise
+from dataclasses import replace
 from typing import NamedTuple
 
 from grainmodes.configuration import Scene
@@ -17,13 +17,14 @@ from grainmodes.cost.item import Item, Job
 from grainmodes.cost.table import Table
 from grainmodes.parameters.compression import PREPARATIONS
 from grainmodes.parameters.grid import (
+    CHECKPOINT_SPACING,
+    LOWEST_CHECKPOINT,
     checkpoint_at_or_below,
     checkpoints_up_to,
     parse_seeds,
     seed_blocks,
 )
-from grainmodes.parameters.stage import Stage
-from grainmodes.parameters.stages import packings_stage
+from grainmodes.parameters.stages import STAGES, packings_stage
 
 TRAJECTORY = {"compress": "trajectory", "compress_with_friction": "frictional_trajectory"}
 """Stage of a compression → its growth law, of a whole trajectory to φ = 0.90."""
@@ -34,11 +35,44 @@ def packings(scene: Scene, table: Table, n: int) -> Iterator[Item]:
     for preparation in PREPARATIONS:
         stage = packings_stage(preparation)
         files = _files(scene, n, preparation)
+        top = {(file.kt, file.seeds): file for file in files}.values()  # the highest comes last
         if files:
-            whole = table.laws[TRAJECTORY[stage.reads]].seconds_at(n)
-            whole *= table.slowdown(scene.protocol.compression, stage.needs_friction)
-            yield _compress(table, stage, n, whole, files)
-            yield _equilibrate(table, stage, n, whole, files)
+            climbs = [
+                [
+                    checkpoint_job(scene, table, stage.reads, n, phi, file.samples)
+                    for phi in checkpoints_up_to(file.phi)
+                ]
+                for file in top
+            ]
+            yield Item.from_chains(stage.reads, None, n, climbs, table)
+            jobs = [packing_job(scene, table, stage.name, n, f.phi, f.samples) for f in files]
+            yield Item.from_chains(stage.name, None, n, [[job] for job in jobs], table)
+
+
+def checkpoint_job(scene: Scene, table: Table, stage: str, n: int, phi: float, samples: int) -> Job:
+    """The compression to the checkpoint φ from the one below it, or from random placement."""
+    below = round(phi - CHECKPOINT_SPACING, 12)
+    start = 0.0 if below < LOWEST_CHECKPOINT else _behind(scene, table, stage, below)
+    part = _behind(scene, table, stage, phi) - start
+    return Job.from_units(
+        table, {TRAJECTORY[stage]: part}, n, samples, n * table.disk["trajectory"]
+    )
+
+
+def packing_job(scene: Scene, table: Table, stage: str, n: int, phi: float, samples: int) -> Job:
+    """From the checkpoint below φ to φ, and into force balance."""
+    read = STAGES[stage].reads
+    below, above = (_behind(scene, table, read, at) for at in (checkpoint_at_or_below(phi), phi))
+    job = Job.from_units(table, {stage: 1.0}, n, samples, n * table.disk["packing"])
+    climb = samples * (above - below) * table.growth_law(TRAJECTORY[read]).seconds_at(n)
+    return replace(job, seconds=job.seconds + climb)
+
+
+def _behind(scene: Scene, table: Table, stage: str, phi: float) -> float:
+    """The part of a usual trajectory, in its time, that is behind a compression at φ."""
+    with_friction = STAGES[stage].needs_friction
+    slowdown = table.slowdown(scene.protocol.compression, with_friction)
+    return slowdown * table.share(phi, with_friction)
 
 
 class File(NamedTuple):
@@ -47,6 +81,11 @@ class File(NamedTuple):
     phi: float
     kt: float
     seeds: str
+
+    @property
+    def samples(self) -> int:
+        """How many."""
+        return len(parse_seeds(self.seeds))
 
 
 def _files(scene: Scene, n: int, preparation: str) -> list[File]:
@@ -60,30 +99,3 @@ def _files(scene: Scene, n: int, preparation: str) -> list[File]:
         for block in seed_blocks(grid.seeds, scene.seeds_per_job)
     }
     return sorted(asked)
-
-
-def _compress(table: Table, stage: Stage, n: int, whole: float, files: list[File]) -> Item:
-    top = {(file.kt, file.seeds): file for file in files}.values()  # the highest comes last
-
-    def climb(file: File) -> list[Job]:
-        checkpoints, size = checkpoints_up_to(file.phi), len(parse_seeds(file.seeds))
-        behind = [0.0, *(table.share(phi, stage.needs_friction) for phi in checkpoints)]
-        parts = [after - before for before, after in pairwise(behind)]
-        disk = size * n * table.disk["trajectory"]
-        return [Job(size, size * whole * part, disk) for part in parts]
-
-    law = table.laws[TRAJECTORY[stage.reads]]
-    return Item.from_chains(stage.reads, None, n, [climb(file) for file in top], [law], table)
-
-
-def _equilibrate(table: Table, stage: Stage, n: int, whole: float, files: list[File]) -> Item:
-    law = table.growth_law(stage.name)
-
-    def branch(file: File) -> list[Job]:
-        size, ends = len(parse_seeds(file.seeds)), (checkpoint_at_or_below(file.phi), file.phi)
-        below, above = (table.share(phi, stage.needs_friction) for phi in ends)
-        seconds = whole * (above - below) + law.seconds_at(n)
-        return [Job(size, size * seconds, size * n * table.disk["packing"])]
-
-    chains = [branch(file) for file in files]
-    return Item.from_chains(stage.name, None, n, chains, [law], table)

@@ -9,6 +9,7 @@ from grainmodes.cost.item import Item, Job
 from grainmodes.cost.table import Table
 from grainmodes.cost.work import degrees_of_freedom, work
 from grainmodes.parameters.grid import Point, parse_seeds, seed_blocks
+from grainmodes.parameters.stage import Observables
 from grainmodes.parameters.stages import STAGES, requested
 
 NUMBERS = {"counts": 0, "binned_averages": 0, "eigenvalues": 1, "modes": 3}
@@ -45,18 +46,29 @@ def _response(
     scene: Scene, table: Table, place: int, stage: str, points: list[Point], sizes: list[int]
 ) -> Item:
     """A stage at some points, each in blocks of so many samples."""
-    kind = str(scene.grids[place].observables["spectrum"])
-    used, chains = set(), []
-    for point in points:
-        units = work(stage, kind, point.n, point.kt, scene.protocol, table)
-        seconds = sum(
-            times * table.growth_law(name).seconds_at(point.n) for name, times in units.items()
-        )
-        disk = _stored(stage, kind, point, table)
-        chains += [[Job(size, size * seconds, size * disk)] for size in sizes]
-        used |= set(units)
-    laws = [table.growth_law(name) for name in sorted(used)]
-    return Item.from_chains(stage, place, points[0].n, chains, laws, table)
+    observables = scene.grids[place].observables
+    chains = [
+        [response_job(scene, table, stage, observables, point, size)]
+        for point in points
+        for size in sizes
+    ]
+    return Item.from_chains(stage, place, points[0].n, chains, table)
+
+
+def response_job(
+    scene: Scene, table: Table, stage: str, observables: Observables, point: Point, samples: int
+) -> Job:
+    """A stage on so many samples of a point that has these observables."""
+    kind = str(observables["spectrum"])
+    units = work(stage, kind, point.n, point.kt, scene.protocol, table)
+    return Job.from_units(
+        table,
+        units,
+        point.n,
+        samples,
+        _stored(stage, kind, point, table),
+        shareable=STAGES[stage].parallel and all(name.startswith("window") for name in units),
+    )
 
 
 def _stored(stage: str, kind: str, point: Point, table: Table) -> float:

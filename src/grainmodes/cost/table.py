@@ -59,6 +59,8 @@ class Table:
     frictional_climb: dict[float, float]
     compression: dict[str, float]
     job: dict[str, float]
+    compilation: dict[str, float]
+    gathering: dict[str, float]
     disk: dict[str, float]
 
     def growth_law(self, name: str) -> GrowthLaw:

@@ -11,6 +11,7 @@ complex pairs per state, a release per million steps of all its runs.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from importlib.util import find_spec
 
 from grainmodes.cost.table import Table
@@ -21,16 +22,14 @@ from grainmodes.parameters.spectra import (
     BINNED,
     DENSE_COUNTS_UP_TO,
     DENSE_MODES_UP_TO,
-    SpectrumChoices,
-)
-from grainmodes.parameters.stages import STAGES
-from grainmodes.parameters.strain import MAX_PAIR_DOF, Shear
-from grainmodes.statistics.binning import (
     HIGHEST_BINS,
     HIGHEST_DIVISIONS,
     LOGARITHMIC_BINS,
     ROTATIONAL_DIVISIONS,
+    SpectrumChoices,
 )
+from grainmodes.parameters.stages import STAGES
+from grainmodes.parameters.strain import MAX_PAIR_DOF, Shear
 
 USUAL_STEP = 1e-4
 """The step of strain in which a shear is priced, with the brackets of its events."""
@@ -131,4 +130,9 @@ def _dense(kind: str, modes: int, method: str, table: Table) -> bool:
 def _backend(asked: str, modes: int) -> str:
     if asked != "auto":
         return asked
-    return "pardiso" if modes >= PARDISO_FROM and find_spec("pypardiso") else "superlu"
+    return "pardiso" if modes >= PARDISO_FROM and _has_pardiso() else "superlu"
+
+
+@cache
+def _has_pardiso() -> bool:
+    return find_spec("pypardiso") is not None

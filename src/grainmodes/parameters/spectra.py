@@ -14,6 +14,13 @@ DENSE_MODES_UP_TO = 5000
 """Degrees of freedom up to which LAPACK finds all modes faster than spectrum slicing does, and
 binned averages faster than inertia counts do."""
 
+LOGARITHMIC_BINS = 50
+HIGHEST_BINS = 10
+HIGHEST_DIVISIONS = 500
+ROTATIONAL_DIVISIONS = 100
+"""Paper A's bins, see `statistics.binning`: intervals of the whole range, how many of the highest
+are divided anew, into how many, and divisions around the rotational band."""
+
 BINNED = ("counts", "binned_averages")
 """Kinds of spectrum that hold bins rather than modes."""
 

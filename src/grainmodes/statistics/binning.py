@@ -14,10 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-LOGARITHMIC_BINS = 50
-HIGHEST_BINS = 10
-HIGHEST_DIVISIONS = 500
-ROTATIONAL_DIVISIONS = 100
+from grainmodes.parameters.spectra import (
+    HIGHEST_BINS,
+    HIGHEST_DIVISIONS,
+    LOGARITHMIC_BINS,
+    ROTATIONAL_DIVISIONS,
+)
+
 ROTATIONAL_WINDOW = (0.1, 2.0)
 """Range of omega / omega_R that is divided linearly."""
 
