@@ -1,4 +1,4 @@
-"""The command line: every stage of a study as a command, and one sentence for every mistake.
+"""The command line: every stage of a study as a command, and one sentence for every failure.
 
 This module and `arguments` import nothing heavy, so that help and the light commands answer at
 once; what a command needs is imported when it runs.
@@ -13,6 +13,7 @@ from pathlib import Path
 
 from grainmodes.cli.arguments import parser
 from grainmodes.runtime.environment import prepare
+from grainmodes.runtime.failures import MACHINE_ERRORS, sentence
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -32,16 +33,16 @@ def main(argv: list[str] | None = None) -> int:
     except _mistakes() as error:
         if arguments.debug:
             raise
-        print(f"grainmodes {arguments.name}: {error}", file=sys.stderr)
+        print(f"grainmodes {arguments.name}: {sentence(error)}", file=sys.stderr)
         return 1
     return 0
 
 
 def _mistakes() -> tuple[type[Exception], ...]:
-    """What a user can cause; imported only once something went wrong."""
+    """What a user or the machine can cause; imported only once something went wrong."""
     from grainmodes.dataset.files import BlockError
 
-    return BlockError, ValueError, OSError
+    return BlockError, ValueError, *MACHINE_ERRORS
 
 
 def _check_output(output: Path | None) -> None:

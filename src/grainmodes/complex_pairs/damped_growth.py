@@ -31,6 +31,7 @@ import numpy as np
 import scipy.sparse as sparse
 from scipy.optimize import brentq
 
+from grainmodes.linalg.failures import NUMERICAL_ERRORS
 from grainmodes.linalg.general_shift import GeneralShift
 
 DRAG_STEP, DRAG_FACTOR = 0.25, 1.25
@@ -92,7 +93,7 @@ class DampedPair:
         for place, drag in enumerate(drags):
             try:
                 now = self._follow(now, float(drag))
-            except ArithmeticError:
+            except NUMERICAL_ERRORS:
                 break
             found[place] = now.growth_rate
         return found
@@ -108,8 +109,11 @@ class DampedPair:
             if now.growth_rate > 0.0:
                 return np.nan
             ends = before.drag, now.drag
+            rates = [self._root(before, drag).growth_rate for drag in ends]
+            if not rates[0] > 0.0 >= rates[1]:
+                return np.nan  # Newton's method has left the root
             return float(brentq(lambda drag: self._root(before, drag).growth_rate, *ends))
-        except ArithmeticError:
+        except NUMERICAL_ERRORS:
             return np.nan
 
     def _next_drag(self, now: DampedMode) -> float:

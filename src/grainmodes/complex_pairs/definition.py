@@ -26,6 +26,7 @@ import numpy as np
 import scipy.linalg
 import scipy.sparse as sparse
 
+from grainmodes.linalg.failures import finite
 from grainmodes.packing.state import zero_on_rattlers
 from grainmodes.response.stability import REAL_TOLERANCE, asymmetry
 
@@ -91,9 +92,9 @@ def dense_eigenpairs(matrix: sparse.csr_array) -> tuple[np.ndarray, np.ndarray, 
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
     if asymmetry(matrix.tocsc()) < SYMMETRY_TOLERANCE:
-        value, vectors = scipy.linalg.eigh(matrix.toarray(), overwrite_a=True, driver="evd")
+        value, vectors = scipy.linalg.eigh(finite(matrix.toarray()), overwrite_a=True, driver="evd")
         return value.astype(complex), vectors, vectors
-    value, left, right = scipy.linalg.eig(matrix.toarray(), left=True, overwrite_a=True)
+    value, left, right = scipy.linalg.eig(finite(matrix.toarray()), left=True, overwrite_a=True)
     return value, left, right
 
 

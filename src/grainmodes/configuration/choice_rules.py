@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 
 from grainmodes.parameters.grid import CHECKPOINT_SPACING, LOWEST_CHECKPOINT
 from grainmodes.parameters.law import COULOMB_LAWS, ELASTIC_LAWS
+from grainmodes.runtime import pardiso
 
 
 def choice_conflicts(config: dict, stiffnesses: Iterable[float]) -> Iterator[str]:
@@ -14,7 +15,7 @@ def choice_conflicts(config: dict, stiffnesses: Iterable[float]) -> Iterator[str
 
     `stiffnesses` are the k_T/k_N at which they are used.
     """
-    for rule in (_coulomb, _steps, _shear):
+    for rule in (_coulomb, _steps, _shear, _pardiso):
         yield from rule(config)
     if config["protocol"]["step_strain"]["relaxation"] == "damped" and 0.0 in stiffnesses:
         yield (
@@ -63,6 +64,12 @@ def _shear(config: dict) -> Iterator[str]:
             f"protocol.shear.min_step: expected {step} divided by 1, 10, 100 and so on, "
             f"got {smallest}"
         )
+
+
+def _pardiso(config: dict) -> Iterator[str]:
+    """A library that is missing is a mistake of the scene on this machine, before it starts."""
+    if config["protocol"]["spectrum"]["factorisation"] == "pardiso" and pardiso.problem():
+        yield f"protocol.spectrum.factorisation: {pardiso.problem()}"
 
 
 def _whole(ratio: float) -> bool:

@@ -11,8 +11,6 @@ complex pairs per state, a release per million steps of all its runs.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
-from importlib.util import find_spec
 
 from grainmodes.cost.table import Table
 from grainmodes.parameters.factors import PARDISO_FROM
@@ -30,6 +28,7 @@ from grainmodes.parameters.spectra import (
 )
 from grainmodes.parameters.stages import STAGES
 from grainmodes.parameters.strain import MAX_PAIR_DOF, Shear
+from grainmodes.runtime import pardiso
 
 USUAL_STEP = 1e-4
 """The step of strain in which a shear is priced, with the brackets of its events."""
@@ -130,9 +129,4 @@ def _dense(kind: str, modes: int, method: str, table: Table) -> bool:
 def _backend(asked: str, modes: int) -> str:
     if asked != "auto":
         return asked
-    return "pardiso" if modes >= PARDISO_FROM and _has_pardiso() else "superlu"
-
-
-@cache
-def _has_pardiso() -> bool:
-    return find_spec("pypardiso") is not None
+    return "pardiso" if modes >= PARDISO_FROM and pardiso.is_installed() else "superlu"

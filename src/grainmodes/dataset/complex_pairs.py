@@ -29,7 +29,8 @@ RELEASE_CONTACT = (*RELEASE, "contact")
 RELEASE_GRAINS = (*RELEASE, "grain", "component")
 RELEASE_PATH = (*RELEASE, "path_state")
 KIND = (
-    "0: nothing, 1: coalescence, 2: contact change, 3: jump, 4: invariant plane lost, 5: undecided"
+    "0: nothing, 1: coalescence, 2: contact change, 3: jump, 4: invariant plane lost, "
+    "5: undecided, 6: the search for it failed"
 )
 
 NAMES = {

@@ -36,6 +36,7 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
+from grainmodes.linalg.failures import finite
 from grainmodes.linalg.symmetric_shift import SymmetricShift
 
 RITZ_TOLERANCE = 1e-11
@@ -105,7 +106,7 @@ class KrylovSpace:
             overlap = basis.T @ image
             self._projected[:new, old:new] += overlap @ scale
             image, triangle = scipy.linalg.qr(
-                self._without_null_space(image - basis @ overlap), mode="economic"
+                finite(self._without_null_space(image - basis @ overlap)), mode="economic"
             )
             scale = triangle @ scale
         self._projected[old:new, :old] = self._projected[:old, old:new].T
@@ -119,7 +120,7 @@ class KrylovSpace:
     def ritz_pairs(self) -> RitzPairs:
         """All approximate eigenpairs that the space holds."""
         part = slice(0, self.size)
-        theta, y = scipy.linalg.eigh(self._projected[part, part])
+        theta, y = scipy.linalg.eigh(finite(self._projected[part, part]))
         residual = np.linalg.norm(self._remainder @ y[self.size - self._block_size :], axis=0)
         values = self._sigma + 1.0 / theta
         return RitzPairs(values, residual <= RITZ_TOLERANCE * np.abs(theta), y)

@@ -16,6 +16,8 @@ import scipy.sparse as sparse
 from numpy.typing import NDArray
 
 from grainmodes.linalg.factorisation import Number, ZeroPivotError
+from grainmodes.linalg.failures import FactorisationError
+from grainmodes.runtime.pardiso import problem
 
 PARAMETERS = {
     1: 1,  # the values below instead of defaults
@@ -42,7 +44,7 @@ ERRORS: dict[int, type[Exception]] = {
     -4: ZeroPivotError,
     -7: ZeroPivotError,
 }
-"""Exceptions by PARDISO's error code; any other code is a mistake in this program."""
+"""Exceptions by PARDISO's error code; any other code is none of the sample."""
 
 
 class Pardiso:
@@ -50,11 +52,16 @@ class Pardiso:
 
     Args:
         pattern: (M, M) sorted CSC with a symmetric pattern; its values are not read.
+
+    Raises:
+        FactorisationError: PARDISO is missing or does not load.
     """
 
     name = "pardiso"
 
     def __init__(self, pattern: sparse.csc_array):
+        if problem():
+            raise FactorisationError(f"factorisation: {problem()}")
         from pypardiso import PyPardisoSolver
         from pypardiso.pardiso_wrapper import PyPardisoError
 
@@ -103,7 +110,7 @@ class Pardiso:
         try:
             solution: NDArray[Number] = self._solver._call_pardiso(self._upper, columns)
         except self._error as error:
-            raise ERRORS.get(error.value, RuntimeError)(str(error)) from error
+            raise ERRORS.get(error.value, FactorisationError)(f"PARDISO: {error}") from error
         return solution
 
 

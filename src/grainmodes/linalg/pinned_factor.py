@@ -22,12 +22,13 @@ from functools import cache, cached_property
 import numpy as np
 import scipy.sparse as sparse
 from numpy.typing import NDArray
-from scipy.sparse.linalg import LinearOperator, eigs, splu
+from scipy.sparse.linalg import LinearOperator, eigs
 from scipy.sparse.linalg import SuperLU as PivotedFactors
 
 from grainmodes.kernels.permutations import is_odd
 from grainmodes.linalg.factorisation import ZeroPivotError
-from grainmodes.linalg.superlu import SuperLU
+from grainmodes.linalg.failures import NUMERICAL_ERRORS
+from grainmodes.linalg.superlu import SuperLU, factors_of
 from grainmodes.linalg.symmetric_shift import SymmetricShift
 
 SINGULAR_RESPONSE = 1e12
@@ -82,7 +83,7 @@ class PinnedFactor:
                 self._factor = SymmetricShift(self._matrix, backend).factor_at(0.0)
             else:
                 self._factor = _GeneralFactor(self._matrix, diagonal, earlier)
-        except (RuntimeError, ArithmeticError) as error:
+        except NUMERICAL_ERRORS as error:
             raise FloppyError(f"the Jacobian is singular ({error})") from error
         self._check_response(np.sqrt(diagonal))
 
@@ -162,7 +163,7 @@ class _GeneralFactor:
             self.n_below = factors.refactor(scaled)
         except ZeroPivotError:
             entries = (scaled, matrix.indices, matrix.indptr)
-            pivoted = splu(sparse.csc_array(entries, shape=matrix.shape))
+            pivoted = factors_of(sparse.csc_array(entries, shape=matrix.shape))
             signs = np.count_nonzero(pivoted.U.diagonal() < 0.0)
             self.n_below = int(signs + is_odd(pivoted.perm_r) + is_odd(pivoted.perm_c)) % 2
             self._factors = pivoted

@@ -7,6 +7,8 @@ Factors that grow beyond `MAX_FACTOR_GROWTH` are refused.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import scipy.sparse as sparse
 from numpy.typing import NDArray
@@ -85,12 +87,26 @@ def elimination_order(pattern: sparse.csc_array) -> NDArray[np.integer]:
 def _factor_without_pivoting(matrix: sparse.csc_array, column_order: str) -> Factors:
     # relax=1: no zeros are added to the factors for longer supernodes; a third faster here.
     options = {"SymmetricMode": True, "Equil": False}
+    return factors_of(
+        matrix, permc_spec=column_order, diag_pivot_thresh=0.0, relax=1, options=options
+    )
+
+
+def factors_of(matrix: sparse.csc_array, **options: Any) -> Factors:
+    """`splu` of a matrix, with the types of this package for what goes wrong.
+
+    SuperLU says the same by a RuntimeError where a pivot vanishes and where it gets no memory.
+
+    Raises:
+        ZeroPivotError: the matrix is singular.
+        MemoryError: the factors do not fit into memory.
+    """
     try:
-        return splu(
-            matrix, permc_spec=column_order, diag_pivot_thresh=0.0, relax=1, options=options
-        )
+        return splu(matrix, **options)
     except RuntimeError as error:
-        raise ZeroPivotError(f"the matrix is singular ({error})") from error
+        if "singular" in str(error):
+            raise ZeroPivotError(f"the matrix is singular ({error})") from error
+        raise MemoryError(f"SuperLU: {error}") from error
 
 
 def _permuted_entries(matrix: sparse.csc_array, order: NDArray[np.integer]) -> sparse.csc_array:

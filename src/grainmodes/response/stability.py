@@ -18,6 +18,7 @@ import scipy.sparse as sparse
 from scipy.sparse.linalg import LinearOperator, eigs
 
 from grainmodes.kernels.laws import Interaction
+from grainmodes.linalg.failures import finite
 from grainmodes.linalg.pinned_factor import MAX_DENSE_SIZE, PinnedFactor
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
@@ -47,7 +48,7 @@ def mass_weighted_eigenvalues(packing: Packing, interaction: Interaction) -> np.
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
     matrix = jacobian(packing, interaction)
-    weighted = mass_weighted_jacobian(matrix, packing.mass).toarray()
+    weighted = finite(mass_weighted_jacobian(matrix, packing.mass).toarray())
     return scipy.linalg.eigvals(weighted, overwrite_a=True)
 
 
@@ -68,7 +69,7 @@ def lowest_eigenvalue(matrix: sparse.csc_array, factor: PinnedFactor, k: int) ->
     """
     size = matrix.shape[0]
     if size <= MAX_DENSE_SIZE:
-        values = scipy.linalg.eigvals(matrix.toarray())
+        values = scipy.linalg.eigvals(finite(matrix.toarray()))
         values = values[np.argsort(np.abs(values))][2:]
         return _signed(values[0]) if len(values) else np.nan
     largest = eigs(**_inverted(size, factor, k), return_eigenvectors=False)
@@ -90,7 +91,7 @@ def lowest_mode(matrix: sparse.csc_array, factor: PinnedFactor, k: int) -> Lowes
     """
     size = matrix.shape[0]
     if size <= MAX_DENSE_SIZE:
-        values, vectors = scipy.linalg.eig(matrix.toarray())
+        values, vectors = scipy.linalg.eig(finite(matrix.toarray()))
         place = np.argsort(np.abs(values))[2]
         value, vector = values[place], vectors[:, place]
     else:

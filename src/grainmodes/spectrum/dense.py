@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.linalg
 
+from grainmodes.linalg.failures import finite
 from grainmodes.spectrum.eigenproblem import Eigenproblem, Numbers
 
 
@@ -21,7 +22,7 @@ def eigenvalues(eigenproblem: Eigenproblem) -> Numbers:
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
-    matrix = eigenproblem.matrix.toarray()
+    matrix = finite(eigenproblem.matrix.toarray())
     if eigenproblem.symmetric:
         return scipy.linalg.eigh(matrix, eigvals_only=True, overwrite_a=True, driver="evd")
     return np.sort_complex(scipy.linalg.eigvals(matrix, overwrite_a=True))
@@ -33,7 +34,7 @@ def eigenpairs(eigenproblem: Eigenproblem) -> tuple[Numbers, Numbers]:
     Raises:
         numpy.linalg.LinAlgError: the eigensolver did not converge.
     """
-    matrix = eigenproblem.matrix.toarray()
+    matrix = finite(eigenproblem.matrix.toarray())
     if eigenproblem.symmetric:
         return scipy.linalg.eigh(matrix, overwrite_a=True, driver="evd")
     values, vectors = scipy.linalg.eig(matrix, overwrite_a=True)

@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 
 from grainmodes.linalg.block_lanczos import Eigenpairs, KrylovSpace
 from grainmodes.linalg.symmetric_shift import SymmetricShift
+from grainmodes.runtime.failures import MachineError
+from grainmodes.runtime.processes import end_with_parent
 from grainmodes.spectrum.eigenproblem import Eigenproblem
 from grainmodes.spectrum.spectrum_slicing import MIN_RELATIVE_WIDTH, SpectralSlice
 
@@ -130,7 +132,7 @@ def measure_slices(
 
     Raises:
         SliceError: the pairs found in a slice are not as many as the counts say.
-        MemoryError: a process was killed.
+        MachineError: a process was killed.
     """
     if processes == 1:
         shift = eigenproblem.symmetric_shift(backend)
@@ -140,19 +142,30 @@ def measure_slices(
         try:
             return list(pool.map(_Worker.run, slices))
         except BrokenProcessPool as error:
-            raise MemoryError("a process that computes slices of a spectrum was killed") from error
+            raise MachineError(
+                f"spectrum: expected {processes} processes that compute its slices, got one that "
+                "was killed, perhaps for lack of memory; nothing was written"
+            ) from error
 
 
 class _Worker:
-    """What one process keeps from slice to slice: a factorisation of its own."""
+    """What one process keeps from slice to slice: a factorisation of its own.
 
-    shift: ClassVar[SymmetricShift]
+    It is made with the first slice, because an error of an initializer is lost.
+    """
+
+    arguments: ClassVar[tuple[Eigenproblem, str]]
     measure: ClassVar[Callable[..., Any]]
+    shift: ClassVar[SymmetricShift | None]
 
     @classmethod
     def start(cls, eigenproblem: Eigenproblem, backend: str, measure: Callable[..., Any]) -> None:
-        cls.shift, cls.measure = eigenproblem.symmetric_shift(backend), measure
+        end_with_parent()
+        cls.arguments, cls.measure, cls.shift = (eigenproblem, backend), measure, None
 
     @classmethod
     def run(cls, interval: SpectralSlice) -> Any:
+        if cls.shift is None:
+            eigenproblem, backend = cls.arguments
+            cls.shift = eigenproblem.symmetric_shift(backend)
         return cls.measure(*eigenpairs_in_slice(cls.shift, interval))

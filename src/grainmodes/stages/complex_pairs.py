@@ -12,6 +12,7 @@ from dataclasses import asdict
 
 from grainmodes.dataset.files import Block
 from grainmodes.kernels.laws import Interaction
+from grainmodes.linalg.failures import NUMERICAL_ERRORS
 from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.strain import Shear
@@ -42,7 +43,7 @@ def complex_pairs_block(
         try:
             while not tracking.done:
                 tracking.advance()
-        except ArithmeticError as error:
+        except NUMERICAL_ERRORS as error:
             return tracking_row(tracking) | loss({"": error})
         return tracking_row(tracking)
 

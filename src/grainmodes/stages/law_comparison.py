@@ -11,7 +11,7 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
-from grainmodes.dataset.files import Block
+from grainmodes.dataset.files import Block, BlockError
 from grainmodes.dataset.padding import stack_padded
 from grainmodes.kernels.laws import Interaction
 from grainmodes.packing.state import Packing
@@ -31,9 +31,9 @@ def law_comparison_block(packings: Block, law: ContactLaw, choices: Shear) -> Bl
         if not jammed:
             return {"comparison_count": 0, "jammed": False, "converged": True}
         if packing.history is not None:
-            raise ValueError("comparison of laws: expected springs at rest, got loaded ones")
+            raise BlockError("comparison of laws: expected springs at rest, got loaded ones")
         if packing.n > MAX_GRAINS:
-            raise ValueError(f"expected at most {MAX_GRAINS} grains, got {packing.n}")
+            raise BlockError(f"expected at most {MAX_GRAINS} grains, got {packing.n}")
         return comparison_row(shear_under_all_laws(packing, law, choices))
 
     config = {"law": asdict(law), "shear": asdict(choices)}

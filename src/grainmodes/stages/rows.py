@@ -14,12 +14,14 @@ from grainmodes.dataset import VARIABLES
 from grainmodes.dataset.files import Block, BlockError
 from grainmodes.dataset.lost import KINDS, merge_lost
 from grainmodes.dataset.padding import stack_padded
+from grainmodes.linalg.failures import NUMERICAL_ERRORS
 from grainmodes.linalg.pinned_factor import FloppyError
+from grainmodes.packing.box import PackingError
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.runtime.provenance import code_version
 
-SAMPLE_ERRORS = (ArithmeticError, ValueError, np.linalg.LinAlgError, MemoryError)
-"""Errors of a single sample; any other error is a mistake in the code and stops the job."""
+SAMPLE_ERRORS = (*NUMERICAL_ERRORS, PackingError)
+"""Errors of a single sample; any other one is of the machine or of the code, and ends the job."""
 
 Sample = Callable[[int], dict[str, Any]]
 """Row number → values of the row by name."""

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from grainmodes.dataset.files import Block, BlockError
+from grainmodes.packing.box import PackingError
 from grainmodes.protocols.compression.trajectory import PHI_ROUNDING, Trajectory
 from grainmodes.stages.packing_rows import grain_columns, packing_in_row
 
@@ -25,11 +26,11 @@ def trajectory_in_row(block: Block, number: int) -> Trajectory:
     """The trajectory in a row of checkpoints.
 
     Raises:
-        ValueError: a stored value is NaN or infinite.
+        PackingError: a stored value is NaN or infinite.
     """
     row = {name: block.variables[name][number] for name in ("step", "phi_jamming", "iterations")}
     if not np.isfinite(row["phi_jamming"]):
-        raise ValueError(
+        raise PackingError(
             f"phi_jamming of the checkpoint: expected a finite number, got {row['phi_jamming']}"
         )
     return Trajectory(

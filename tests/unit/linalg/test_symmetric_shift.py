@@ -151,21 +151,6 @@ def test_an_unknown_factorisation_is_refused():
 
 
 @pytest.mark.skipif("pardiso" not in BACKENDS, reason="needs pypardiso")
-@pytest.mark.parametrize(("code", "kind"), [(-2, MemoryError), (-4, ZeroPivotError)])
-def test_errors_of_pardiso_are_errors_of_a_sample(code, kind, monkeypatch):
-    from pypardiso.pardiso_wrapper import PyPardisoError
-
-    def fail(*arguments):
-        raise PyPardisoError(code)
-
-    factors = backends.make_factorisation(sparse.csc_array(np.eye(3)), "pardiso")
-    with monkeypatch.context() as patch:
-        patch.setattr(factors._solver, "_call_pardiso", fail)
-        with pytest.raises(kind, match=f"error code {code}"):
-            factors.refactor(np.ones(3))
-
-
-@pytest.mark.skipif("pardiso" not in BACKENDS, reason="needs pypardiso")
 def test_mkl_is_located_once(monkeypatch):
     from pypardiso import pardiso_wrapper
 
@@ -175,10 +160,3 @@ def test_mkl_is_located_once(monkeypatch):
     backends.make_factorisation(pattern, "pardiso")
     monkeypatch.delattr(pardiso_wrapper, "find_library")
     backends.make_factorisation(pattern, "pardiso")
-
-
-def test_pardiso_must_be_installed_to_be_chosen(monkeypatch):
-    monkeypatch.setattr(backends, "find_spec", lambda name: None)
-    assert backends.choose_backend("auto", 10**6) == "superlu"
-    with pytest.raises(ValueError, match="is not installed"):
-        backends.choose_backend("pardiso", 10)

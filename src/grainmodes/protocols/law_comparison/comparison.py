@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from grainmodes.kernels.laws import Interaction
+from grainmodes.linalg.failures import NUMERICAL_ERRORS
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.release.simulated_growth import simulated_growth_rate
@@ -62,7 +63,7 @@ class LawRun:
     """The states of a shear under one law; `failure` is why it ended early, if it did."""
 
     states: list[ComparedState] = field(default_factory=list)
-    failure: ArithmeticError | None = None
+    failure: Exception | None = None
 
 
 def shear_under_law(packing: Packing, interaction: Interaction, choices: Shear) -> LawRun:
@@ -75,7 +76,7 @@ def shear_under_law(packing: Packing, interaction: Interaction, choices: Shear) 
             equilibrium, _ = step_to(step * choices.step, equilibrium, choices)
             if step % interval == 0:
                 run.states.append(compare_state(equilibrium))
-    except ArithmeticError as error:
+    except NUMERICAL_ERRORS as error:
         run.failure = error
     return run
 

@@ -16,6 +16,8 @@ nearest state in which it is a pair. The bracket tells what happened:
 | `CONTACT_CHANGE` | contacts open or close, and with them the pair comes or goes         |
 | `JUMP`           | the equilibrium did not move on continuously                         |
 | `LOST`           | none of these: the subspace mixes with a third mode                  |
+| `FAILED`         | a state in the bracket has no equilibrium, or a method did not       |
+|                  | converge                                                             |
 
 States at δ = 1e-8 … 1e-5 on both sides of γ_c, on its contacts, give the exponent: the slope of
 log|λ1 − λ2| against log δ, with the standard error of the fit (`fit_exponent`).
@@ -33,13 +35,14 @@ from grainmodes.complex_pairs.inverse_iteration import (
     InvariantSubspace,
     nearest_subspace,
 )
+from grainmodes.linalg.failures import NUMERICAL_ERRORS
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.events import count_network_changes
 from grainmodes.protocols.shear.strain_step import step_to
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
 
-NEVER, COALESCENCE, CONTACT_CHANGE, JUMP, LOST, UNDECIDED = range(6)
+NEVER, COALESCENCE, CONTACT_CHANGE, JUMP, LOST, UNDECIDED, FAILED = range(7)
 """Kinds of births and deaths. `NEVER`: the pair still exists. `UNDECIDED`: contacts changed in the
 step, and it was not located."""
 
@@ -136,7 +139,7 @@ def follow_modes(start: TwoModeState, equilibrium: EquilibriumState) -> TwoModeS
     matrix = mass_weighted_jacobian(equilibrium.matrix, equilibrium.backbone.mass)
     try:
         subspace = nearest_subspace(matrix, start.subspace)
-    except ArithmeticError:
+    except NUMERICAL_ERRORS:
         return None
     invariant = subspace.residual <= INVARIANCE_TOLERANCE
     same = invariant and subspace.overlap_with(start.subspace) > MIN_FOLLOWED_OVERLAP
@@ -171,7 +174,7 @@ def _branch(
     for distance in distances.tolist():
         try:
             equilibrium, jumped = step_to(origin + distance, now.equilibrium, choices)
-        except ArithmeticError:
+        except NUMERICAL_ERRORS:
             return
         followed = follow_modes(now, equilibrium)
         if followed is None or jumped:

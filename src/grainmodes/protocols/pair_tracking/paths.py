@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy.linalg
 
+from grainmodes.linalg.failures import finite
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian
 from grainmodes.protocols.pair_tracking.exceptional_points import TwoModeState, follow_modes
 from grainmodes.relaxation.equilibrium_state import EquilibriumState
@@ -88,6 +89,6 @@ def _scalar_products(state: EquilibriumState, mode: int) -> ScalarProducts:
 def _all_modes(state: EquilibriumState) -> tuple[np.ndarray, np.ndarray]:
     """All eigenvalues of K, (M,), λ_r ascending, with eigenvectors (M, M) of norm 1."""
     matrix = mass_weighted_jacobian(state.matrix, state.backbone.mass)
-    values, vectors = scipy.linalg.eig(matrix.toarray())
+    values, vectors = scipy.linalg.eig(finite(matrix.toarray()))
     order = np.lexsort((values.imag, values.real))
     return values[order], vectors[:, order]

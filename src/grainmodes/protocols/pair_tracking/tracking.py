@@ -26,6 +26,7 @@ import numpy as np
 from grainmodes.complex_pairs.definition import DynamicalMatrix, translations
 from grainmodes.complex_pairs.matching import match_pairs
 from grainmodes.kernels.laws import Interaction
+from grainmodes.linalg.failures import NUMERICAL_ERRORS
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.complex_pairs import PairChoices
 from grainmodes.parameters.strain import Shear
@@ -37,8 +38,8 @@ from grainmodes.protocols.pair_tracking.detection import (
 )
 from grainmodes.protocols.pair_tracking.exceptional_points import (
     COALESCENCE,
+    FAILED,
     JUMP,
-    LOST,
     NEVER,
     UNDECIDED,
     ExceptionalPoint,
@@ -175,8 +176,8 @@ class PairTracking:
         pair = state.two_modes(place)
         try:
             point = locate_exceptional_point(pair, other, self.shear, self.choices.bracket)
-        except ArithmeticError:
-            point = ExceptionalPoint.between(LOST, pair.strain, other.packing.strain)
+        except NUMERICAL_ERRORS:
+            point = ExceptionalPoint.between(FAILED, pair.strain, other.packing.strain)
         self.located.append(LocatedPoint(track, born, point, pair))
         record, ends = self.tracks[track], (point.below, point.above)
         if born:

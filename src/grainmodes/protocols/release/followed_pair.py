@@ -21,6 +21,7 @@ from grainmodes.complex_pairs.inverse_iteration import (
     subspace_spanned_by,
 )
 from grainmodes.kernels.laws import Interaction
+from grainmodes.linalg.failures import NUMERICAL_ERRORS
 from grainmodes.packing.jacobian import jacobian
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
 from grainmodes.packing.state import Packing
@@ -75,7 +76,7 @@ class FollowedPair:
         matrix = mass_weighted_jacobian(jacobian(packing, interaction), packing.mass)
         try:
             found = nearest_subspace(matrix, self.subspace)
-        except ArithmeticError:
+        except NUMERICAL_ERRORS:
             return 0.0
         same = found.overlap_with(self.subspace) > MIN_FOLLOWED_OVERLAP
         if not (same and found.is_pair and found.residual <= INVARIANCE_TOLERANCE):

@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import OptimizeResult, least_squares
 
+from grainmodes.linalg.failures import finite
 from grainmodes.parameters.release import GROWTH_RANGE
 
 MIN_RECORDS = 60
@@ -94,7 +95,7 @@ def _densest_record(time: np.ndarray) -> int:
 def _fit_exponents(time: np.ndarray, square: np.ndarray, start: np.ndarray) -> OptimizeResult:
     """ω_i and ω_r by least squares, each in units of what the span of times resolves."""
     flat, unit = square * np.exp(-2.0 * start[0] * time), 1.0 / np.ptp(time)
-    flat = flat / flat.mean()
+    flat = finite(flat / flat.mean())
 
     def residual(parameters: np.ndarray) -> np.ndarray:
         terms = _terms(time, parameters - [start[0], 0.0])

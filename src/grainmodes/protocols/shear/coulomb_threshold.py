@@ -25,6 +25,7 @@ import numpy as np
 import scipy.linalg
 
 from grainmodes.kernels.laws import Interaction
+from grainmodes.linalg.failures import finite
 from grainmodes.packing.contacts import Contacts
 from grainmodes.packing.jacobian import assemble, stiffness_of
 from grainmodes.packing.mass_weighted import mass_weighted_jacobian, root_mass
@@ -110,4 +111,4 @@ def _dense_jacobian(packing: Packing, interaction: Interaction, side: float) -> 
     stiffness = stiffness_of(beside_threshold(contacts, side), interaction)
     matrix = assemble(stiffness, contacts.i, contacts.j, packing.n)
     dense: np.ndarray = mass_weighted_jacobian(matrix, packing.mass).toarray()
-    return dense
+    return finite(dense)

@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from grainmodes.linalg.failures import NUMERICAL_ERRORS
 from grainmodes.packing.state import nan_on_rattlers, nonaffine_motion
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.events import count_network_changes
@@ -76,7 +77,7 @@ def _states_on_branch(
                 state = _state_at(origin + distance, state, choices)
             size = np.copysign(SLOPE_STEP, distance)
             slope = (_state_at(state.strain + size, state, choices).sigma - state.sigma) / size
-        except ArithmeticError:
+        except NUMERICAL_ERRORS:
             break
         changes = sum(count_network_changes(end.equilibrium, state.equilibrium))
         found.append(BranchState(distance, state, slope, changes))

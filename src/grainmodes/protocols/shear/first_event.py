@@ -38,7 +38,7 @@ class Bracket:
     curve: list[CurvePoint]
     event: PlasticEvent | None = None
     after: ShearedState | None = None
-    failure: ArithmeticError | None = None
+    failure: Exception | None = None
 
 
 def refined_steps(choices: Shear) -> list[Shear]:

@@ -19,6 +19,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from grainmodes.kernels.laws import Interaction
+from grainmodes.linalg.failures import NUMERICAL_ERRORS
 from grainmodes.packing.state import Packing
 from grainmodes.parameters.strain import Shear
 from grainmodes.protocols.shear.events import (
@@ -48,7 +49,7 @@ class QuasistaticRun:
     curve: list[CurvePoint] = field(default_factory=list)
     network_changes: list[NetworkChange] = field(default_factory=list)
     events: list[PlasticEvent] = field(default_factory=list)
-    failure: ArithmeticError | None = None
+    failure: Exception | None = None
 
     @classmethod
     def from_packing(
@@ -97,7 +98,7 @@ class QuasistaticRun:
         try:
             after = self._state_after(units)
             kind = event_kind(self.state, after)
-        except ArithmeticError as error:
+        except NUMERICAL_ERRORS as error:
             after, kind, self.failure = None, 0, error
         if units > 1 and (after is None or kind):
             self.step_units = largest_power_of_ten_below(units)
