@@ -1,11 +1,11 @@
 """Processes that end with the one that started them, and how a process is known for sure.
 
-| part   | taken from                                 | why                                         |
-| ------ | ------------------------------------------ | ------------------------------------------- |
-| host   | name of the machine                        | for messages                                |
-| place  | start of the system, process namespace     | numbers can be compared within one only    |
-| number | process id                                 |                                             |
-| start  | clock ticks since the system started       | a number is used again                      |
+| part   | taken from                           | why                                           |
+| ------ | ------------------------------------ | --------------------------------------------- |
+| host   | name of the machine                  | for messages                                  |
+| place  | start of the system and namespace    | process ids can be compared within one only   |
+| number | process id                           |                                               |
+| start  | clock ticks since the system started | an id is used again                           |
 """
 
 from __future__ import annotations
