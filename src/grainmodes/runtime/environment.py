@@ -22,14 +22,20 @@ THREAD_VARIABLES = (
 )
 
 
-def prepare() -> None:
-    """Set one thread where the environment sets no number of threads, and set NUMBA_CACHE_DIR.
+def prepare(processes: int = 1) -> None:
+    """Set the threads of a process and NUMBA_CACHE_DIR.
+
+    A process has one thread where the environment sets no number; where it does, as Snakemake does
+    for a job, the `processes` of the job share them, so that there are never more.
 
     MKL_CBWR makes MKL, which PARDISO uses, independent of the alignment of arrays in memory, so
     that the same input gives the same bytes.
     """
     for name in THREAD_VARIABLES:
-        os.environ.setdefault(name, "1")
+        given = os.environ.get(name, "1")
+        if processes > 1 or not given.strip():
+            given = str(max(1, int(given) // processes)) if given.strip().isdigit() else "1"
+        os.environ[name] = given
     os.environ.setdefault("MKL_CBWR", "AUTO")
     os.environ["NUMBA_CACHE_DIR"] = str(numba_cache())
 

@@ -11,6 +11,7 @@
 from __future__ import annotations
 
 import ctypes
+import hashlib
 import os
 import signal
 import socket
@@ -37,9 +38,20 @@ class Process(NamedTuple):
     start: str
 
     @classmethod
+    def current(cls) -> Process:
+        """This process."""
+        return cls.with_number(os.getpid())
+
+    @classmethod
     def with_number(cls, number: int) -> Process:
         """A process of this machine by its process id."""
         return cls(socket.gethostname(), place(), number, start_of(number))
+
+    @property
+    def mark(self) -> str:
+        """A word for the name of a file that this process writes."""
+        system = hashlib.sha256(self.place.encode()).hexdigest()[:8]
+        return f"{system}-{self.number}-{self.start}"
 
     @property
     def is_here(self) -> bool:
@@ -86,6 +98,15 @@ def _start_by_psutil(number: int) -> str:
         return "" if dead else f"{process.create_time():.2f}"
     except psutil.Error:
         return ""
+
+
+def is_single_threaded() -> bool:
+    """Whether this process has a single thread, those of libraries counted, so that a copy of it
+    is whole; False where it cannot be seen."""
+    try:
+        return len(os.listdir("/proc/self/task")) == 1
+    except OSError:
+        return False
 
 
 def end_with_parent(parent: int | None = None) -> None:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from grainmodes.linalg.block_lanczos import Eigenpairs, KrylovSpace
 from grainmodes.linalg.symmetric_shift import SymmetricShift
 from grainmodes.runtime.failures import MachineError
-from grainmodes.runtime.processes import end_with_parent
+from grainmodes.runtime.processes import end_with_parent, is_single_threaded
 from grainmodes.spectrum.eigenproblem import Eigenproblem
 from grainmodes.spectrum.spectrum_slicing import MIN_RELATIVE_WIDTH, SpectralSlice
 
@@ -138,7 +138,8 @@ def measure_slices(
         shift = eigenproblem.symmetric_shift(backend)
         return [measure(*eigenpairs_in_slice(shift, interval)) for interval in slices]
     arguments = eigenproblem, backend, measure
-    with ProcessPoolExecutor(processes, get_context("spawn"), _Worker.start, arguments) as pool:
+    context = get_context("fork" if is_single_threaded() else "spawn")
+    with ProcessPoolExecutor(processes, context, _Worker.start, arguments) as pool:
         try:
             return list(pool.map(_Worker.run, slices))
         except BrokenProcessPool as error:
