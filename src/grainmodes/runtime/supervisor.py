@@ -131,7 +131,8 @@ def _look_after(
     if orphan:
         tell(f"ended, because the workflow that started it has ended ({owner})")
     else:
-        tell(f"ended by {signal.Signals(-code).name}{HINTS.get(-code, '')}; {NOTHING}")
+        number = signal.Signals(-code)
+        tell(f"ended by {number.name}{HINTS.get(number, '')}; {NOTHING}")
     return 128 - code
 
 
