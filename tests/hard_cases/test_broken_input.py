@@ -200,7 +200,7 @@ def test_a_full_disk_is_told_in_one_line_and_leaves_the_old_file(tmp_path, room)
     run = subprocess.run([sys.executable, "-c", COMMAND, *words], capture_output=True, text=True)
     assert run.returncode == 1
     assert run.stderr.count("\n") == 1
-    assert f"{output}: cannot be written; is the disk full?" in run.stderr
+    assert f"{output}: cannot be written: File too large\n" in run.stderr
     assert output.read_text() == "the old one"
     assert set(tmp_path.iterdir()) == {output, naive}
     with pytest.raises(BlockError):

@@ -16,6 +16,7 @@ import xarray
 
 from grainmodes.ensemble import open_ensemble
 from grainmodes.ensemble.lost import LostSample, lost_samples, points_of_stages
+from grainmodes.runtime.atomic import replaced
 
 RESULTS = pytest.StashKey[list[str]]()
 
@@ -61,7 +62,8 @@ def pytest_sessionfinish(session) -> None:
     config = session.config
     with open_ensemble(config.getoption("ensemble")) as opened:
         lines = [*session.stash.get(RESULTS, []), *_statements(opened), ""]
-    config.getoption("report").write_text("\n".join(lines), encoding="utf-8")
+    with replaced(config.getoption("report")) as partial:
+        partial.write_text("\n".join(lines), encoding="utf-8")
 
 
 def _statements(ensemble: xarray.Dataset) -> list[str]:

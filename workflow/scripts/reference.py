@@ -10,10 +10,10 @@ import json
 import sys
 from pathlib import Path
 
-import netCDF4
 import yaml
 
 from grainmodes.configuration import ConfigurationError, Scene, scene_from
+from grainmodes.dataset.files import opened_file
 from grainmodes.ensemble import reference
 from grainmodes.parameters.figures import FIGURES, FORMS
 
@@ -54,7 +54,7 @@ def check_finished(scene: Scene, results: Path, files: list[Path]) -> None:
     for file in [*files, results / "checks.txt", results / "claims.md", *pictures]:
         if not file.is_file():
             raise SystemExit(f"{results}: expected a finished study, got no {file}")
-    with netCDF4.Dataset(results / "ensemble.nc") as ensemble:
+    with opened_file(results / "ensemble.nc") as ensemble:
         if json.loads(ensemble.config) != json.loads(scene.summary()):
             raise SystemExit(f"{results}: expected results of this scene, got those of another one")
 

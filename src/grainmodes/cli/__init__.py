@@ -12,8 +12,8 @@ from argparse import Namespace
 from collections.abc import Callable
 from functools import partial
 from importlib import import_module
-from pathlib import Path
 
+from grainmodes.cli import outputs
 from grainmodes.cli.arguments import parser
 from grainmodes.runtime.environment import prepare
 from grainmodes.runtime.failures import MACHINE_ERRORS, sentence
@@ -31,16 +31,16 @@ def main(argv: list[str] | None = None) -> int:
 
 def _supervised(arguments: Namespace) -> int:
     """Run a command in a child process."""
-    _check_output(getattr(arguments, "output", None))
+    written = outputs.check(arguments)
     run = partial(_answered, arguments, _compute)
-    return supervised(run, f"grainmodes {arguments.name}", outputs_of(arguments))
+    return supervised(run, f"grainmodes {arguments.name}", written)
 
 
 def _compute(arguments: Namespace) -> int:
     """Run a command in this process."""
     prepare(getattr(arguments, "processes", 1))
     module, _, function = arguments.run.partition(":")
-    _check_output(getattr(arguments, "output", None))
+    outputs.check(arguments)
     getattr(import_module(f"grainmodes.cli.{module}"), function)(arguments)
     sys.stdout.flush()
     return 0
@@ -63,28 +63,8 @@ def _answered(arguments: Namespace, action: Callable[[Namespace], int]) -> int:
     return 0
 
 
-def outputs_of(arguments: Namespace) -> list[Path]:
-    """The files that a command writes, links followed; devices and pipes are left out."""
-    named = [getattr(arguments, "output", None), *getattr(arguments, "outputs", [])]
-    paths = [Path(path).resolve() for path in named if path is not None]
-    return [path for path in paths if path.is_file() or not path.exists()]
-
-
 def _mistakes() -> tuple[type[Exception], ...]:
     """What a user or the machine can cause; imported only once something went wrong."""
     from grainmodes.dataset.files import BlockError
 
     return BlockError, ValueError, *MACHINE_ERRORS
-
-
-def _check_output(output: Path | None) -> None:
-    """Refuse a place that cannot be written before hours are spent on what goes there."""
-    if output is None:
-        return
-    output.parent.mkdir(parents=True, exist_ok=True)
-    if output.is_dir():
-        raise OSError(f"{output}: cannot be written, expected the name of a file, got a folder")
-    if not os.access(output.parent, os.W_OK):
-        raise OSError(
-            f"{output}: cannot be written, expected a writable folder, got {output.parent}"
-        )

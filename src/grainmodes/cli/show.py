@@ -6,10 +6,10 @@ import json
 from argparse import Namespace
 from collections.abc import Iterable, Iterator, Sequence
 
-import netCDF4
 import numpy as np
 
-from grainmodes.dataset.files import BlockError, check_file
+from grainmodes.dataset.files import opened_file
+from grainmodes.dataset.library import netCDF4
 from grainmodes.dataset.lost import KINDS
 
 LAST = ("config", *KINDS)
@@ -18,14 +18,8 @@ LAST = ("config", *KINDS)
 
 def show(arguments: Namespace) -> None:
     """Print dimensions, variables, provenance, converged samples and lost samples of a file."""
-    path = arguments.file
-    check_file(path)
-    try:
-        with netCDF4.Dataset(path) as file:
-            lines = [str(path), *_lines(file)]
-    except (OSError, RuntimeError) as error:
-        reason = f"not a readable netCDF file, or a truncated one ({error})"
-        raise BlockError(f"{path}: {reason}") from error
+    with opened_file(arguments.file) as file:
+        lines = [str(arguments.file), *_lines(file)]
     print("\n".join(lines))
 
 

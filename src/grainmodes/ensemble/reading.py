@@ -6,7 +6,8 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grainmodes.dataset.files import BlockError, check_file
+from grainmodes.dataset.files import BlockError, check_content
+from grainmodes.dataset.library import LOCK
 from grainmodes.parameters.law import ContactLaw
 from grainmodes.parameters.spectra import SpectrumChoices
 
@@ -17,22 +18,17 @@ DIMENSIONS = ("n", "phi", "kt", "seed", "mode")
 
 
 def open_ensemble(path: str | Path) -> xr.Dataset:
-    """Open an ensemble; arrays are read when they are used.
+    """Open an ensemble whose content is as its checksum says; arrays are read when they are used.
 
     Raises:
-        BlockError: no such file, not a readable netCDF file, or not an ensemble.
+        BlockError: no such file, not a readable netCDF file, a damaged one, or not an ensemble.
     """
     import xarray as xr  # here, because gathering points takes less time than this import
 
     path = Path(path)
-    check_file(path)
-    try:
-        ensemble = xr.open_dataset(path, engine="netcdf4")
-    except (OSError, RuntimeError, ValueError) as error:
-        reason = str(error).partition("\n")[0]
-        raise BlockError(
-            f"{path}: not a readable netCDF file, or a truncated one ({reason})"
-        ) from error
+    check_content(path)
+    with LOCK:
+        ensemble = xr.open_dataset(path, engine="netcdf4", lock=LOCK)
     missing = [name for name in DIMENSIONS if name not in ensemble.dims]
     if missing:
         ensemble.close()

@@ -13,10 +13,11 @@ import shutil
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-import netCDF4
 import yaml
 
-from grainmodes.dataset.files import BlockError, new_file
+from grainmodes.dataset.checksum import NAME as CHECKSUM
+from grainmodes.dataset.files import BlockError, new_file, opened_file
+from grainmodes.dataset.library import netCDF4
 from grainmodes.runtime.atomic import replaced
 
 FOLDER = Path(__file__).with_name("references")
@@ -109,7 +110,8 @@ def write_reference(scene: Path, figures: list[str], sources: dict[str, list[Pat
         sources: "ensemble" or a stage of single samples → its files.
 
     Raises:
-        OSError: a file cannot be read or written.
+        BlockError: a file cannot be read, or is damaged.
+        OSError: a file cannot be written.
     """
     study = yaml.safe_load(scene.read_text(encoding="utf-8"))["study"]
     home, new = FOLDER / study, FOLDER / f".{study}.partial"
@@ -121,7 +123,7 @@ def write_reference(scene: Path, figures: list[str], sources: dict[str, list[Pat
             reduce(path, new / name)
             files.setdefault(source, {})[name] = _sha256(new / name)
     shutil.copyfile(scene, new / "scene.yaml")
-    with netCDF4.Dataset(sources["ensemble"][0]) as ensemble:
+    with opened_file(sources["ensemble"][0]) as ensemble:
         code_version = str(ensemble.code_version)
     shutil.rmtree(home, ignore_errors=True)
     new.replace(home)
@@ -138,13 +140,14 @@ def write_reference(scene: Path, figures: list[str], sources: dict[str, list[Pat
 
 def reduce(source: Path, target: Path) -> None:
     """Copy a netCDF file, its long series rounded to DIGITS digits, all of it compressed."""
-    with netCDF4.Dataset(source) as old, new_file(target) as new:
+    with opened_file(source) as old, new_file(target) as new:
         for name, dimension in old.dimensions.items():
             new.createDimension(name, len(dimension))
         for name, variable in old.variables.items():
             variable.set_auto_maskandscale(False)
             _copy(variable, new, name)
-        new.setncatts({name: old.getncattr(name) for name in old.ncattrs()})
+        kept = [name for name in old.ncattrs() if name != CHECKSUM]
+        new.setncatts({name: old.getncattr(name) for name in kept})
 
 
 def _copy(variable: netCDF4.Variable, file: netCDF4.Dataset, name: str) -> None:

@@ -13,11 +13,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-import netCDF4
 import numpy as np
 
 from grainmodes.dataset import VARIABLES
 from grainmodes.dataset.files import Block, BlockError, content_of, new_file, read_block
+from grainmodes.dataset.library import netCDF4
 from grainmodes.dataset.lost import KINDS, Lost
 from grainmodes.dataset.units import Laws, laws_of
 from grainmodes.ensemble.lost import point_name, sample_name

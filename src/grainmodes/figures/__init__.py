@@ -43,7 +43,7 @@ from grainmodes.figures.shared.sample_files import (
     read_samples,
 )
 from grainmodes.figures.shared.selection import Options
-from grainmodes.parameters.figures import FIGURES, FORMS
+from grainmodes.parameters.figures import FIGURES, files_of_stem
 from grainmodes.runtime.atomic import replaced
 
 STYLE = Path(__file__).with_name("grainmodes.mplstyle")
@@ -58,7 +58,7 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
     Args:
         name: a key of `parameters.figures.FIGURES`.
         data: file of `write_ensemble`; a list of files if the figure shows single samples.
-        out_stem: path without suffix.
+        out_stem: path, to which the suffix of each form is added.
         options: keys of `selection.Options`; {} for the choices of the paper.
 
     Raises:
@@ -118,7 +118,7 @@ def _header(title: str, columns: dict[str, tuple[str, str]], lacking: list[str])
 
 def _write(stem: Path, figure: Figure, numbers: str, caption: str, beyond: bool) -> None:
     """Write all four files; `beyond`: something is drawn outside of the figure."""
-    png, pdf, csv, txt = (stem.with_name(f"{stem.name}.{form}") for form in FORMS)
+    png, pdf, csv, txt = files_of_stem(stem)
     with replaced(png) as png, replaced(pdf) as pdf, replaced(csv) as csv, replaced(txt) as txt:
         box, metadata = "tight" if beyond else None, {"Software": None}
         figure.savefig(png, format="png", dpi=DOTS_PER_INCH, metadata=metadata, bbox_inches=box)

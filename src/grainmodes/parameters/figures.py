@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 
 @dataclass(frozen=True)
@@ -22,6 +23,17 @@ class Figure:
 
 FORMS = ("png", "pdf", "csv", "txt")
 """Suffixes of the files of a figure: picture, vectors, plotted numbers, caption."""
+
+
+def files_of_stem(stem: Path) -> list[Path]:
+    """The files of a figure, one for each form; a suffix of `stem` that is a form is left out.
+
+    >>> [path.name for path in files_of_stem(Path("dos_n~64.png"))]
+    ['dos_n~64.png', 'dos_n~64.pdf', 'dos_n~64.csv', 'dos_n~64.txt']
+    """
+    name = stem.stem if stem.suffix.removeprefix(".") in FORMS else stem.name
+    return [stem.with_name(f"{name}.{form}") for form in FORMS]
+
 
 FIGURES = {
     "g_phi": Figure("paper_a", "Rigidity against area fraction (paper A, Fig. 4)", ("rigidity",)),

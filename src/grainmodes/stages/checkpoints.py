@@ -1,9 +1,9 @@
 """Checkpoints of long runs in files beside their output, and a line that says how far a run is.
 
-A run is pickled to `.<output>.<name>.checkpoint`, written whole or not at all. It is read back only
-by the same code, for the same packings with the same choices; any other content of that file is
-ignored. So an interrupted sample goes on where it was some minutes before, and ends with the same
-bytes.
+A run is pickled to `.<output>.<name>.checkpoint`, written whole or not at all, behind the checksum
+of its content. It is read back only by the same code, for the same packings with the same choices;
+any other content of that file is ignored. So an interrupted sample goes on where it was some
+minutes before, and ends with the same bytes.
 """
 
 from __future__ import annotations
@@ -22,6 +22,9 @@ from grainmodes.runtime.atomic import replaced
 from grainmodes.runtime.progress import Progress
 from grainmodes.runtime.provenance import code_version
 from grainmodes.stages.long_runs import Run
+
+CHECKSUM = hashlib.sha256().digest_size
+"""Bytes at the start of a checkpoint: the SHA-256 of the rest."""
 
 SECONDS_PER_LINE = 2.0
 """Seconds between two lines on a terminal; elsewhere there is one line for every checkpoint."""
@@ -60,10 +63,14 @@ class CheckpointFiles(Generic[Run]):
         if not path.is_file():
             return None
         self._files.add(path)
+        content = path.read_bytes()
+        checksum, content = content[:CHECKSUM], content[CHECKSUM:]
+        if hashlib.sha256(content).digest() != checksum:
+            return None  # a foreign or damaged file: the sample starts from its beginning
         try:
-            mark, run = pickle.loads(path.read_bytes())
+            mark, run = pickle.loads(content)
         except Exception:
-            return None  # a foreign or broken file: the sample starts from its beginning
+            return None  # of another version of the code
         return run if mark == self._mark else None
 
     def save_if_due(self, name: str, run: Run) -> None:
@@ -72,7 +79,8 @@ class CheckpointFiles(Generic[Run]):
         if now - self._saved_at > self._seconds and run.restartable:
             path = self._path(name)
             with replaced(path) as partial:
-                partial.write_bytes(pickle.dumps((self._mark, run)))
+                content = pickle.dumps((self._mark, run))
+                partial.write_bytes(hashlib.sha256(content).digest() + content)
             self._files.add(path)
             self._saved_at = now
             self._print_progress(name, run, now)

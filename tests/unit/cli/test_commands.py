@@ -5,12 +5,12 @@ import os
 import subprocess
 import sys
 
-import netCDF4
+import numpy as np
 import pytest
 
 import synthetic
 from grainmodes.cli import main
-from grainmodes.dataset.files import read_block, write_block
+from grainmodes.dataset.files import Block, read_block, write_block
 
 HEAVY = ("numba", "xarray", "matplotlib", "scipy", "numpy", "jsonschema")
 
@@ -247,10 +247,9 @@ def test_a_point_without_files_between(tmp_path, capsys):
 
 def test_showing_tells_failures(tmp_path, capsys):
     path = tmp_path / "block.nc"
-    with netCDF4.Dataset(path, "w") as file:
-        file.createDimension("seed", 2)
-        file.createVariable("converged", "i1", ("seed",))[...] = [1, 0]
-        file.failures = json.dumps({"1": "ran out of iterations"})
+    failures = {"rigidity": {"1": "ran out of iterations"}}
+    variables = {"seed": np.arange(2), "converged": np.array([1, 0])}
+    write_block(path, Block(variables, {"failures": failures}))
     assert main(["show", str(path)]) == 0
     text = capsys.readouterr().out
     assert "converged  1 of 2" in text

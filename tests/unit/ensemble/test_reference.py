@@ -3,13 +3,13 @@
 import runpy
 from pathlib import Path
 
-import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
 import yaml
 
 import synthetic
+from edited_files import edited
 from grainmodes.claims import first_tested
 from grainmodes.cli import main
 from grainmodes.configuration import scene_from
@@ -37,7 +37,7 @@ def folder(tmp_path_factory, whole) -> Path:
 
 def test_series_are_rounded_and_samples_are_kept(whole, folder):
     with xr.open_dataset(whole) as full, xr.open_dataset(folder / "small/ensemble.nc") as small:
-        assert small.attrs == full.attrs
+        assert {**small.attrs, "checksum": ""} == {**full.attrs, "checksum": ""}
         assert set(small.variables) == set(full.variables)
         np.testing.assert_array_equal(small["g"], full["g"])
         np.testing.assert_allclose(small["eigenvalue"], full["eigenvalue"], rtol=1e-4)
@@ -141,7 +141,7 @@ def test_only_a_finished_study_becomes_a_reference(whole, tmp_path, monkeypatch,
         file.write_bytes(whole.read_bytes())
     with pytest.raises(SystemExit, match="got those of another one"):
         make(["tiny.yaml"])
-    with netCDF4.Dataset("results/tiny/ensemble.nc", "a") as ensemble:
+    with edited("results/tiny/ensemble.nc") as ensemble:
         ensemble.config = scene_from(yaml.safe_load(SCENE)).summary()
     stray = Path("results/tiny/fields/n~32/phi~0.9/kt~1.0.nc")
     stray.parent.mkdir(parents=True)

@@ -4,6 +4,9 @@ from dataclasses import dataclass, field
 
 import pytest
 
+from edited_files import flip
+from grainmodes.runtime.progress import Progress
+from grainmodes.stages.checkpoints import CheckpointFiles
 from grainmodes.stages.long_runs import run_to_end
 
 
@@ -19,6 +22,10 @@ class Counter:
     @property
     def done(self) -> bool:
         return self.value == self.last
+
+    @property
+    def progress(self) -> Progress:
+        return Progress(self.value / self.last, "counted", self.value, "numbers")
 
     def advance(self) -> bool:
         if self.value == self.stuck_at:
@@ -65,3 +72,20 @@ def test_a_run_of_another_name_starts_from_its_beginning():
 def test_a_run_ends_where_no_step_is_possible(store):
     run = run_to_end(lambda: Counter(stuck_at=2), store, "seed-3")
     assert (run.value, run.done) == (2, False)
+
+
+def test_a_damaged_checkpoint_is_not_read(tmp_path):
+    """Many bits of a pickle are numbers that load as other numbers."""
+    files = CheckpointFiles(tmp_path / "x.nc", ("start",), -1.0)
+    files.load("seed-3")
+    files.save_if_due("seed-3", Counter(value=3))
+    (path,) = tmp_path.iterdir()
+    assert files.load("seed-3") == Counter(value=3)
+    whole = path.read_bytes()
+    for bit in range(8 * len(whole)):
+        flip(path, bit)
+        assert files.load("seed-3") is None, bit
+        path.write_bytes(whole)
+    for kept in range(len(whole)):
+        path.write_bytes(whole[:kept])
+        assert files.load("seed-3") is None, kept

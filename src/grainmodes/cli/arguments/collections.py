@@ -57,7 +57,7 @@ def _figure(commands: Commands) -> None:
     _reference(command, "draw from a reference ensemble of the package, by default the first one")
     _shown(command)
     command.add_argument("--bin-density", type=float, help="factor on the numbers of linear bins")
-    options.output(command, "path without suffix, to which .png, .pdf, .csv and .txt are appended")
+    options.output(command, "path, to which the suffixes .png, .pdf, .csv and .txt are added")
 
 
 def _film(commands: Commands) -> None:
