@@ -82,14 +82,3 @@ def test_killed_runs_end_with_the_same_bytes(fresh, built):
     assert finished.returncode == 0, finished.stdout
     assert fresh.fingerprints() == built.fingerprints()
     assert "Nothing to be done" in fresh.run()
-
-
-def test_a_living_run_keeps_its_lock(fresh):
-    run = start(fresh)
-    wait_for(lambda: list((fresh.folder / ".snakemake" / "locks").glob("*")), run)
-    try:
-        assert "cannot be locked" in resume(fresh).stdout
-        assert run.poll() is None
-    finally:
-        os.killpg(run.pid, signal.SIGKILL)
-        run.wait()

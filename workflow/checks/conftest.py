@@ -17,6 +17,7 @@ import xarray
 from grainmodes.ensemble import open_ensemble
 from grainmodes.ensemble.lost import LostSample, lost_samples, points_of_stages
 from grainmodes.runtime.atomic import replaced
+from grainmodes.runtime.workflow_run import end_with_workflow
 
 RESULTS = pytest.StashKey[list[str]]()
 
@@ -25,6 +26,11 @@ def pytest_addoption(parser) -> None:
     """`--ensemble FILE` and `--report FILE`."""
     parser.addoption("--ensemble", type=Path, required=True, help="file of `grainmodes ensemble`")
     parser.addoption("--report", type=Path, required=True, help="text file to write")
+
+
+def pytest_configure(config) -> None:
+    """The checks are a job of the workflow, and end with it."""
+    end_with_workflow()
 
 
 def pytest_generate_tests(metafunc) -> None:

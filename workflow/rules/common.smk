@@ -15,7 +15,9 @@ from grainmodes.parameters.grid import (
     format_value,
 )
 from grainmodes.parameters.stages import STAGES, responses
+from grainmodes.runtime.failures import MACHINE_ERRORS, sentence
 from grainmodes.runtime.provenance import script_sources, stage_sources
+from grainmodes.runtime.workflow_run import name_to_jobs, start_run
 from measurements.accuracy import NAMES
 
 # Snakemake would merge a scene of the command line into the default one, key by key.
@@ -28,6 +30,16 @@ try:
     scene = scene_from(config)
 except ConfigurationError as error:
     raise WorkflowError(f"The configuration has mistakes.\n{error}")
+
+# A run claims its folder before it plans; what only looks (-n, --summary) has no cores, and does not.
+if not workflow.subprocess_exec:
+    name_to_jobs()
+resources_given = workflow.resource_settings.cores or workflow.resource_settings.nodes
+if workflow.is_main_process and resources_given and not workflow.output_settings.dryrun:
+    try:
+        start_run(Path("results") / scene.study)
+    except MACHINE_ERRORS as error:
+        raise WorkflowError(sentence(error))
 
 # The command `grainmodes` of the Python that runs Snakemake, with its environment active or not.
 os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])

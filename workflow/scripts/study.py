@@ -1,36 +1,36 @@
 """Run Snakemake where an earlier run may have been killed.
 
-A killed Snakemake leaves its lock and half-known files behind. Where no Snakemake is alive in this
-folder the lock is stale and is removed; then the run goes on from the files that are whole.
+A killed Snakemake leaves its lock and half-known files behind. This process claims the folder and
+becomes Snakemake. Where it has the claim no other run lives, and a lock is stale; then the run goes
+on from the files that are whole.
 """
 
 from __future__ import annotations
 
 import os
-import subprocess
+import shutil
 import sys
 from pathlib import Path
 
-import psutil
+from grainmodes.runtime.failures import MACHINE_ERRORS, sentence
+from grainmodes.runtime.workflow_run import claim_folder
+
+LOCKS = Path(".snakemake/locks")
 
 
 def main(options: list[str]) -> None:
-    """Become `snakemake --rerun-incomplete` with these options; does not return."""
+    """Become `snakemake --rerun-incomplete` with these options; does not return.
+
+    Raises:
+        SystemExit: another run works in this folder.
+    """
+    try:
+        claim_folder()
+        shutil.rmtree(LOCKS, ignore_errors=True)
+    except MACHINE_ERRORS as error:
+        raise SystemExit(f"make study: {sentence(error)}") from error
     snakemake = str(Path(sys.executable).with_name("snakemake"))
-    if any(Path(".snakemake/locks").glob("*")) and not running_in(Path.cwd()):
-        subprocess.run([snakemake, "--unlock", *options], check=True)
     os.execv(snakemake, [snakemake, "--rerun-incomplete", *options])
-
-
-def running_in(folder: Path) -> list[int]:
-    """Process ids of the Snakemakes that work in a folder."""
-    processes = psutil.process_iter(["pid", "cwd", "cmdline"])
-    return [
-        process.info["pid"]
-        for process in processes
-        if process.info["cwd"] == str(folder)
-        and any(Path(word).name == "snakemake" for word in process.info["cmdline"] or [])
-    ]
 
 
 if __name__ == "__main__":

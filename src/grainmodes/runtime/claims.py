@@ -85,7 +85,7 @@ def take(path: Path, what: str, wait: bool, tell: Callable[[str], None]) -> Clai
             _remove(path, owner)
             continue
         if lives and not wait:
-            raise ClaimedError(f"{what}: expected no other process, got {owner}")
+            raise ClaimedError(f"{what}: expected no other run, got {owner}")
         if not told:
             tell(f"{what}: waiting for {owner or 'another process'}")
             told = True

@@ -86,12 +86,11 @@ class Command:
 
     def end(self) -> tuple[int, str]:
         """Its exit status and what it said, once all of its processes have ended."""
-        said = self.process.stderr.read()
         status, last = self.process.wait(timeout=10), time.monotonic() + NOTHING_LIVES_AFTER
         while self.alive():
             assert time.monotonic() < last, self.alive()
             time.sleep(0.02)
-        return status, said
+        return status, self.process.stderr.read()
 
 
 @pytest.fixture
