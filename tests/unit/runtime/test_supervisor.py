@@ -169,6 +169,7 @@ def test_a_command_outlives_the_shell_that_started_it(tmp_path):
     """As under nohup."""
     script = COMMAND.format(body="    import time; time.sleep(2.0); print('done', flush=True)")
     (tmp_path / "command.py").write_text(script, encoding="utf-8")
+    (tmp_path / "said").touch()
     words = f"nohup {sys.executable} {tmp_path}/command.py {tmp_path}/out.nc > {tmp_path}/said &"
     subprocess.run(["bash", "-c", words], check=True, timeout=1.5)
     deadline = time.monotonic() + 20.0
