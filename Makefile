@@ -5,7 +5,7 @@
 # make lint       style, the walls between rooms, and types
 # make handbook the parts of the documentation that follow from tables
 # make reference CONFIG=…  a finished study becomes a reference ensemble of the package
-# make clean      forget results, compiled kernels and Snakemake's bookkeeping
+# make clean      forget results, logs, compiled kernels and Snakemake's bookkeeping
 #
 # Needed on the machine: Python >= 3.11 with pip, a C compiler, make. CONFIG=config/paper_a.yaml
 # chooses another scene, JOBS=8 more jobs at once, WORKERS=4 more processes that test,
@@ -52,7 +52,7 @@ reference: $(READY)
 	$(BIN)/python workflow/scripts/reference.py $(CONFIG)
 
 clean:
-	rm -rf results/* .snakemake .numba_cache .pytest_cache .ruff_cache .import_linter_cache .mypy_cache
+	rm -rf results/* logs .snakemake .numba_cache .pytest_cache .ruff_cache .import_linter_cache .mypy_cache
 
 $(READY): requirements.lock
 	$(PYTHON) -m venv .venv

@@ -9,11 +9,18 @@ rule checks:
         report="workflow/checks/conftest.py",
     output:
         f"{STUDY}/checks.txt",
+    log:
+        log_of("checks"),
+    benchmark:
+        benchmark_of("checks")
+    resources:
+        **needs(job_of_reader),
     message:
         "Check the consistency of the ensemble."
     shell:
-        "python -m pytest -p no:cacheprovider {input.checks}"
-        " --ensemble {input.ensemble} --report {output} || [ $? -eq 1 ]"
+        "(python -m pytest -p no:cacheprovider {input.checks}"
+        " --ensemble {input.ensemble} --report {output} || [ $? -eq 1 ])"
+        " 2>&1 | tee {log} >&2"
 
 
 rule passed:
@@ -22,8 +29,15 @@ rule passed:
         everything=ancient([f"{STUDY}/claims.md", *figures()]),
     output:
         touch(f"{STUDY}/checks.passed"),
+    log:
+        log_of("passed"),
+    benchmark:
+        benchmark_of("passed")
+    resources:
+        **needs(job_of_reader),
     message:
         "See whether all checks have passed."
     shell:
-        "if grep '^failed' {input.checks}; then"
-        " echo 'Checks have failed: see {input.checks}.' >&2; exit 1; fi"
+        "(if grep '^failed' {input.checks}; then"
+        " echo 'Checks have failed: see {input.checks}.' >&2; exit 1; fi)"
+        " 2>&1 | tee {log} >&2"

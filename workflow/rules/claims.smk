@@ -12,7 +12,13 @@ rule claims:
     output:
         page=f"{STUDY}/claims.md",
         table=f"{STUDY}/claims.csv",
+    log:
+        log_of("claims"),
+    benchmark:
+        benchmark_of("claims")
+    resources:
+        **needs(job_of_reader),
     message:
         "Check the claims of the papers."
     shell:
-        "grainmodes claims {input.ensemble} -o {output.page} {output.table}"
+        "grainmodes claims {input.ensemble} -o {output.page} {output.table} 2>&1 | tee {log} >&2"

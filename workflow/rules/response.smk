@@ -14,6 +14,13 @@ for stage in responses():
                 code=sources(*stage.code),
             output:
                 output_of(stage),
+            log:
+                log_of(stage.name, file_of(stage)),
+            benchmark:
+                benchmark_of(stage.name, file_of(stage))
+            threads: threads_for(job_of_stage(stage.name))
+            resources:
+                **needs(job_of_stage(stage.name)),
             params:
                 command=stage.command,
                 settings=settings_of(stage),
@@ -22,6 +29,7 @@ for stage in responses():
             shell:
                 "grainmodes {params.command} {input.block} --kt {wildcards.kt}"
                 " --processes {threads} --settings {params.settings:q} -o {output}"
+                " 2>&1 | tee {log} >&2"
 
     else:
 
@@ -33,6 +41,12 @@ for stage in responses():
                 code=sources(*stage.code),
             output:
                 output_of(stage),
+            log:
+                log_of(stage.name, file_of(stage)),
+            benchmark:
+                benchmark_of(stage.name, file_of(stage))
+            resources:
+                **needs(job_of_stage(stage.name)),
             params:
                 command=stage.command,
                 settings=settings_of(stage),
@@ -41,3 +55,4 @@ for stage in responses():
             shell:
                 "grainmodes {params.command} {input.block} --kt {wildcards.kt}"
                 " --settings {params.settings:q} -o {output}"
+                " 2>&1 | tee {log} >&2"

@@ -30,6 +30,9 @@ MOST_THREADS = 8
 SECONDS_PER_THREAD = 3600.0
 """CPU time from which a job takes another thread, where its work can be shared."""
 
+LARGEST_DENSE = 4096
+"""Largest N at which `measurements/` compares with a dense spectrum."""
+
 STATE_NUMBERS = 20
 """Numbers that a point keeps of a state of a shear, its pairs of eigenvalues included."""
 
@@ -77,6 +80,13 @@ def reader_job(scene: Scene, table: Table) -> Job:
     law, megabytes = table.gathering, padded_megabytes(scene)
     seconds = megabytes * law["seconds_per_megabyte"]
     return Job(0, seconds, law["copies"] * megabytes, 0.0, up_to=0)
+
+
+def measurement_job(table: Table, n: int, seconds: float) -> Job:
+    """A job that measures speeds or errors up to n grains, dense spectra up to `LARGEST_DENSE`."""
+    dense = table.growth_law("dense_modes").megabytes_at(min(n, LARGEST_DENSE))
+    peak = max(dense, table.growth_law("rigidity").megabytes_at(n))
+    return Job(1, seconds, peak, 0.0, up_to=n)
 
 
 def padded_megabytes(scene: Scene) -> float:

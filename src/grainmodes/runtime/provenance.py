@@ -86,10 +86,15 @@ def _fingerprint(paths: Iterable[Path]) -> str:
 def _closure(start: set[Path]) -> set[Path]:
     found, waiting = set(start), list(start)
     while waiting:
-        new = _imports([_tree(waiting.pop())]) - found
+        new = _imports_of_module(waiting.pop()) - found
         found |= new
         waiting += new
     return found
+
+
+@cache
+def _imports_of_module(path: Path) -> frozenset[Path]:
+    return frozenset(_imports([_tree(path)]))
 
 
 def _imports(nodes: Iterable[ast.AST]) -> set[Path]:
