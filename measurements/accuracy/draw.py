@@ -14,14 +14,14 @@ import sys
 import textwrap
 from pathlib import Path
 
-import matplotlib.style
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from grainmodes.figures import DOTS_PER_INCH, STYLE
+from grainmodes.figures import DOTS_PER_INCH
 from grainmodes.figures.shared import labels
+from grainmodes.figures.shared.appearance import house_style
 from grainmodes.runtime.atomic import replaced
 from measurements.accuracy import panels
 from measurements.accuracy.table import Table, curves, read
@@ -146,7 +146,7 @@ def write(stem: Path, table: Table) -> None:
     Raises:
         OSError: one of them cannot be written.
     """
-    with matplotlib.style.context(STYLE):
+    with house_style():
         figure = Figure()
         FigureCanvasAgg(figure)
         draw(figure, table)

@@ -12,7 +12,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from grainmodes import figures
 from grainmodes.cost.table import REFERENCE
 from grainmodes.figures.shared import appearance, labels
 from grainmodes.runtime.atomic import replaced
@@ -45,7 +44,7 @@ SIZE = (7.0, 5.6)
 
 def write(machine: str, rows: pd.DataFrame, stem: Path) -> None:
     """Draw the rows into `stem`.png and `stem`.pdf."""
-    with plt.style.context(figures.STYLE):
+    with appearance.house_style():
         figure = draw(machine, rows)
         for form in ("png", "pdf"):
             with replaced(stem.with_suffix(f".{form}")) as partial:

@@ -11,12 +11,13 @@ tested, whatever its other parts say, unless one of them contradicts it.
 
 from __future__ import annotations
 
+import ast
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import wraps
 from itertools import chain
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -119,8 +120,16 @@ def claim(name: str, unit: str) -> Callable[[Callable[[xr.Dataset], Outcome]], C
 
 def _paragraph(function: Callable, head: str) -> str:
     """The first paragraph of the docstring that begins so, without this beginning."""
-    paragraphs = [" ".join(text.split()) for text in inspect.getdoc(function).split("\n\n")]
+    paragraphs = [" ".join(text.split()) for text in _docstring(function).split("\n\n")]
     return next(text for text in paragraphs if text.startswith(head)).removeprefix(head)
+
+
+def _docstring(function: Callable) -> str:
+    """The docstring of a function; read in its source where Python runs with -OO."""
+    if function.__doc__:
+        return inspect.cleandoc(function.__doc__)
+    (definition,) = ast.parse(inspect.getsource(function)).body
+    return ast.get_docstring(cast(ast.FunctionDef, definition)) or ""
 
 
 def _number(part: Part | None) -> tuple[str, float, float, float, str]:

@@ -6,14 +6,13 @@ once; what a command needs is imported when it runs.
 
 from __future__ import annotations
 
-import os
 import sys
 from argparse import Namespace
 from collections.abc import Callable
 from functools import partial
 from importlib import import_module
 
-from grainmodes.cli import outputs
+from grainmodes.cli import outputs, streams
 from grainmodes.cli.arguments import parser
 from grainmodes.runtime.environment import prepare
 from grainmodes.runtime.failures import MACHINE_ERRORS, sentence
@@ -21,11 +20,20 @@ from grainmodes.runtime.supervisor import supervised
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Run one command; the exit status is 0, or 1 for a failure, or 2 for bad usage.
+    """Run one command.
 
-    The command of this process runs under a supervisor; one given as `argv` runs here.
+    The exit status is 0, or 1 for a failure, or 2 for bad usage, or 141, as that of `cat`, where
+    the reader of the standard output has seen enough. The command of this process runs under a
+    supervisor; one given as `argv` runs here.
     """
-    arguments = parser().parse_args(argv)
+    streams.escape_unknown_characters()
+    try:
+        arguments = parser().parse_args(argv)
+    except SystemExit:
+        if streams.reader_is_gone():
+            streams.discard()
+            return streams.READER_GONE
+        raise
     return _answered(arguments, _compute if argv else _supervised)
 
 
@@ -42,7 +50,7 @@ def _compute(arguments: Namespace) -> int:
     module, _, function = arguments.run.partition(":")
     outputs.check(arguments)
     getattr(import_module(f"grainmodes.cli.{module}"), function)(arguments)
-    sys.stdout.flush()
+    streams.write_out()
     return 0
 
 
@@ -52,15 +60,15 @@ def _answered(arguments: Namespace, action: Callable[[Namespace], int]) -> int:
         return action(arguments)
     except KeyboardInterrupt:
         return 130
-    except BrokenPipeError:
-        # A reader such as `head` has seen enough; Python would flush the rest when it ends.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except _mistakes() as error:
+        if isinstance(error, BrokenPipeError) and streams.reader_is_gone():
+            streams.discard()
+            return streams.READER_GONE
         if arguments.debug:
             raise
-        print(f"grainmodes {arguments.name}: {sentence(error)}", file=sys.stderr)
+        reason = sentence(error) if isinstance(error, MACHINE_ERRORS) else str(error)
+        print(f"grainmodes {arguments.name}: {reason}", file=sys.stderr)
         return 1
-    return 0
 
 
 def _mistakes() -> tuple[type[Exception], ...]:

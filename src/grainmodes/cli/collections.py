@@ -39,7 +39,7 @@ def _source(arguments: Namespace) -> Path | list[Path]:
         ValueError: no data, data beside a reference, or more than one ensemble.
     """
     name, source = arguments.figure, FIGURES[arguments.figure].source
-    data = _given_or_reference(arguments, arguments.data, f"figure {name}")
+    data = _given_or_reference(arguments, arguments.data)
     if data is None:
         from grainmodes.ensemble import reference
 
@@ -49,18 +49,19 @@ def _source(arguments: Namespace) -> Path | list[Path]:
     if source != "ensemble":
         return data
     if len(data) > 1:
-        raise ValueError(f"figure {name}: expected one ensemble, got {len(data)} files")
+        raise ValueError(f"{name}: expected one ensemble, got {len(data)} files")
     return data[0]
 
 
-def _given_or_reference(arguments: Namespace, given: list[Path], what: str) -> list[Path] | None:
+def _given_or_reference(arguments: Namespace, given: list[Path]) -> list[Path] | None:
     """The given files, or None where a reference is requested instead.
 
     Raises:
         ValueError: both, or neither.
     """
     if bool(given) == (arguments.reference is not None):
-        raise ValueError(f"{what}: expected either files or --reference")
+        got = "both" if given else "neither"
+        raise ValueError(f"expected either files or --reference, got {got}")
     return given or None
 
 
@@ -88,7 +89,7 @@ def claims(arguments: Namespace) -> None:
     for path in arguments.outputs:
         report.form(path)
     given = [arguments.ensemble] if arguments.ensemble else []
-    ensembles = _given_or_reference(arguments, given, "claims") or _references(arguments.reference)
+    ensembles = _given_or_reference(arguments, given) or _references(arguments.reference)
     verdicts, remark = first_tested(ensembles)
     for path in arguments.outputs:
         report.write(verdicts, path, remark)

@@ -9,14 +9,13 @@ def cost(arguments: Namespace) -> None:
     """A scene → what it will cost.
 
     Raises:
-        ValueError: the scene or the table has mistakes, or there is no core.
+        ValueError: the scene or the table has mistakes, or the scene costs too much.
     """
     from grainmodes.configuration import read_scene
-    from grainmodes.cost import COSTS, read_table, report
+    from grainmodes.cost import COSTS, check_budget, read_table, report
 
-    if arguments.cores < 1:
-        raise ValueError(f"--cores: expected a whole number from 1, got {arguments.cores}")
     scene = read_scene(arguments.config)
+    check_budget(scene, read_table())
     print(report(scene, read_table(arguments.costs or COSTS), arguments.cores))
 
 

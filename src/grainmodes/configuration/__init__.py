@@ -11,6 +11,7 @@ from pathlib import Path
 from grainmodes.configuration import rules
 from grainmodes.configuration.grids import Grid
 from grainmodes.configuration.mistakes import ConfigurationError
+from grainmodes.configuration.reading import read_config, scalar
 from grainmodes.configuration.scene import Scene
 from grainmodes.configuration.schema import complete, mistakes, schema
 from grainmodes.configuration.stage_settings import StageSettings, check_point, stage_settings
@@ -21,7 +22,9 @@ __all__ = [
     "Scene",
     "StageSettings",
     "check_point",
+    "read_config",
     "read_scene",
+    "scalar",
     "scene_from",
     "stage_settings",
 ]
@@ -44,15 +47,6 @@ def read_scene(path: str | Path) -> Scene:
     """The scene of a YAML file.
 
     Raises:
-        ConfigurationError: the file is missing or is not YAML, or what `scene_from` raises.
+        ConfigurationError: what `read_config` or `scene_from` raises.
     """
-    import yaml
-
-    try:
-        config = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        reason = " ".join(str(error).split())
-        raise ConfigurationError(f"{path}: not a readable YAML file ({reason})") from error
-    if not isinstance(config, dict):
-        raise ConfigurationError(f"{path}: expected the keys study and grids, got no keys")
-    return scene_from(config)
+    return scene_from(read_config(path))

@@ -9,8 +9,8 @@ having diameter d and half d/1.4, L^2 = N (pi/8)(1 + 1/1.4^2) d^2 / phi.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from itertools import combinations
+from collections.abc import Callable, Iterator
+from itertools import combinations, pairwise
 
 from grainmodes.configuration.grids import Grid
 from grainmodes.parameters.spectra import BINNED
@@ -22,15 +22,60 @@ AREA_PER_GRAIN = math.pi / 8 * (1 + 1 / 1.4**2)
 SMALLEST_BOX = 2.0
 """Smallest side of the box, in d."""
 
+MIN_PHI_DIFFERENCE, MIN_KT_RATIO = 1e-9, 1.0 + 1e-9
+"""Smallest difference of two φ, and smallest ratio of two k_T, that figures tell apart."""
+
+
+MAX_FILES = 200_000
+"""Largest number of files of one stage: blocks of seeds of all points."""
+
 
 def grid_conflicts(config: dict) -> Iterator[str]:
     """One sentence per conflict in and between the grids of a complete configuration."""
+    too_many = list(_number_of_files(config))
+    if too_many:
+        yield from too_many
+        return
     wrong_kt = list(_friction(config))
     yield from wrong_kt
     for rule in (_boxes, _blocks, _rattlers, _preparations, _springs_at_rest):
         yield from rule(config)
+    yield from _nearly_equal(config, "phi", lambda low, high: high - low < MIN_PHI_DIFFERENCE)
     if not wrong_kt:
+        yield from _nearly_equal(config, "kt", lambda low, high: high < low * MIN_KT_RATIO)
         yield from _points(config)
+
+
+def _number_of_files(config: dict) -> Iterator[str]:
+    """The first place where the grids together have too many files of a stage."""
+    files = 0
+    for place, grid in enumerate(config["grids"]):
+        points = len(grid["n"]) * len(grid["phi"]) * len(grid.get("kt") or [0.0])
+        files += points * math.ceil(grid["seeds"] / config["seeds_per_job"])
+        if files > MAX_FILES:
+            yield (
+                f"grids[{place}]: expected at most {MAX_FILES} files of seeds in the scene, got "
+                f"{files}; raise seeds_per_job, or write several scenes"
+            )
+            return
+
+
+def _nearly_equal(config: dict, axis: str, same: Callable[[float, float], bool]) -> Iterator[str]:
+    """Two values of an axis at one n that no curve, and no choice of a figure, tells apart."""
+    values = sorted(
+        {
+            (n, value, f"grids[{place}].{axis}")
+            for place, grid in enumerate(config["grids"])
+            for n in grid["n"]
+            for value in grid.get(axis) or [0.0]
+        }
+    )
+    close = [
+        f"{key}: expected values that differ, got {low!r} and {high!r}"
+        for (n, low, _), (other, high, key) in pairwise(values)
+        if n == other and low < high and same(low, high)
+    ]
+    yield from dict.fromkeys(close)
 
 
 def _friction(config: dict) -> Iterator[str]:
@@ -69,10 +114,11 @@ def narrow_box(key: str, n: int, phi: float) -> Iterator[str]:
 def _points(config: dict) -> Iterator[str]:
     """A point in two grids would have two lists of observables."""
     grids = enumerate(map(Grid.from_config, config["grids"]))
-    for (first, one), (second, other) in combinations(grids, 2):
-        common = next(filter(one.holds, other.points), None)
-        if common:
-            n, phi, kt = common.n, common.phi, common.kt
+    axes = [(place, (grid.n, grid.phi, grid.kt)) for place, grid in grids]
+    for (first, one), (second, other) in combinations(axes, 2):
+        common = [sorted({*mine} & {*yours}) for mine, yours in zip(one, other, strict=True)]
+        if all(common):
+            n, phi, kt = (values[0] for values in common)
             yield (
                 f"grids[{second}]: expected every point in one grid only, got n = {n}, "
                 f"phi = {phi}, kt = {kt}, which also lies in grids[{first}]"

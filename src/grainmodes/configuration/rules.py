@@ -1,6 +1,7 @@
 """What no schema can say of a scene: how its grids, laws, choices and figures go together.
 
-Rules within and between grids stand in `grid_rules`, those of laws and choices in `choice_rules`.
+Rules within and between grids stand in `grid_rules`, those of observables in `observable_rules`,
+those of laws and choices in `choice_rules`.
 """
 
 from __future__ import annotations
@@ -10,10 +11,9 @@ from collections.abc import Iterator
 from grainmodes.configuration.choice_rules import choice_conflicts
 from grainmodes.configuration.grid_rules import grid_conflicts
 from grainmodes.configuration.grids import Grid, lacking
+from grainmodes.configuration.observable_rules import observable_conflicts
 from grainmodes.parameters.fields import MOST_FOR_ALL_MODES
 from grainmodes.parameters.figures import FIGURES
-from grainmodes.parameters.law import COULOMB_LAWS
-from grainmodes.parameters.law_comparison import MAX_GRAINS
 from grainmodes.parameters.stages import responses
 
 
@@ -22,28 +22,13 @@ def conflicts(config: dict) -> Iterator[str]:
     found = list(grid_conflicts(config))
     yield from found
     yield from choice_conflicts(config, {kt for grid in config["grids"] for kt in _kts(grid)})
-    yield from _comparison(config)
+    yield from observable_conflicts(config)
     if not found:
         yield from _figures(config)
 
 
 def _kts(grid: dict) -> list[float]:
     return grid.get("kt", [0.0])
-
-
-def _comparison(config: dict) -> Iterator[str]:
-    requesting = [grid for grid in config["grids"] if grid["observables"]["law_comparison"]]
-    if requesting and config["contact_law"]["friction_coefficient"] is None:
-        yield (
-            "contact_law.friction_coefficient: expected a number above 0 because "
-            "observables.law_comparison is true, and a tangential law that has one "
-            f"({', '.join(COULOMB_LAWS)}), got none"
-        )
-    for n in (n for grid in requesting for n in grid["n"] if n > MAX_GRAINS):
-        yield (
-            f"observables.law_comparison: expected grids of at most {MAX_GRAINS} grains, "
-            f"got n = {n}"
-        )
 
 
 def _figures(config: dict) -> Iterator[str]:

@@ -59,10 +59,7 @@ def point_rule(name: str) -> dict:
 
 
 def complete(value: Any, rule: dict) -> Any:
-    """`value` with the defaults of its absent keys, and with numbers where text spells a number.
-
-    YAML 1.1 reads 1e-8 as a text (it wants 1.0e-8), which no user means.
-    """
+    """`value` with the defaults of its absent keys, and every number of the type of its key."""
     if isinstance(value, dict) and "properties" in rule:
         return _with_defaults(value, rule["properties"])
     if isinstance(value, list | tuple) and "items" in rule:
@@ -121,15 +118,18 @@ def _types(rule: dict) -> list[str]:
 
 
 def _number(value: Any, types: list[str]) -> Any:
-    """The number that a text spells where one is wanted, whole where it must be.
+    """A number as the type that its rule wants; a value that is none, or is too large, as it is.
 
-    A NaN becomes a text: it would pass every range, since all comparisons with it are false.
+    A NaN becomes a text: it would pass every range, since all comparisons with it are false. Adding
+    0 turns -0.0 into 0.0, so that both have the same path.
     """
-    if not {"number", "integer"} & set(types) or isinstance(value, bool):
+    if not {"number", "integer"} & set(types) or not isinstance(value, int | float):
+        return value
+    if isinstance(value, bool) or ("integer" in types and isinstance(value, int)):
         return value
     try:
-        number = float(value)
-    except (TypeError, ValueError):
+        number = float(value) + 0.0
+    except OverflowError:
         return value
     if number != number:
         return "nan"
@@ -141,12 +141,14 @@ def _sentences(error: Any) -> Iterator[str]:
     where = f"{key}: " if key else ""
     if error.validator == "additionalProperties":
         names = error.schema["properties"]
-        for name in sorted(set(error.instance) - set(names)):
+        for name in sorted(set(error.instance) - set(names), key=str):
             yield f"{where}unknown key {name!r}, expected one of {', '.join(names)}"
     elif error.validator == "required":
         for name in sorted(set(error.validator_value) - set(error.instance)):
             rule = error.schema["properties"][name]
             yield f"{where}key {name!r} is missing, expected {expected(rule)}"
+    elif error.validator == "maxItems":
+        yield f"{key}: expected at most {error.validator_value} items, got {len(error.instance)}"
     elif error.validator == "uniqueItems":
         twice = next(item for item in error.instance if error.instance.count(item) > 1)
         yield f"{where}duplicate value {twice!r}: values must be unique"

@@ -3,9 +3,11 @@
     CPU time = Σ over samples of Σ over works of (units of work) c (N / 1024)^p + jobs × start-up
 
 `table` has c and p, measured on one machine, `work` the units that a stage asks for; `packings` and
-`responses` count samples and jobs, `estimate` joins them, `report` says it in a table.
+`responses` count samples and jobs, `estimate` joins them, `report` says it in a table, and
+`budget` refuses what no machine gives.
 """
 
+from grainmodes.cost.budget import check_budget
 from grainmodes.cost.estimate import estimate, wall_seconds
 from grainmodes.cost.item import Item
 from grainmodes.cost.report import report
@@ -16,6 +18,7 @@ __all__ = [
     "GrowthLaw",
     "Item",
     "Table",
+    "check_budget",
     "estimate",
     "read_table",
     "report",

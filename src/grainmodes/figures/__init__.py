@@ -29,14 +29,13 @@ from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 
-import matplotlib.style
 import pandas as pd
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from grainmodes.dataset.files import BlockError
 from grainmodes.ensemble import contact_law, open_ensemble
-from grainmodes.figures.shared import captions, labels, missing
+from grainmodes.figures.shared import appearance, captions, labels, missing
 from grainmodes.figures.shared.sample_files import (
     compressed_with_friction,
     law_of,
@@ -46,7 +45,6 @@ from grainmodes.figures.shared.selection import Options
 from grainmodes.parameters.figures import FIGURES, files_of_stem
 from grainmodes.runtime.atomic import replaced
 
-STYLE = Path(__file__).with_name("grainmodes.mplstyle")
 DOTS_PER_INCH = 300
 PDF_DOTS_PER_INCH = 450
 """Resolution of the parts of a PDF that are pixels: maps and curves of very many symbols."""
@@ -62,7 +60,8 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
         options: keys of `selection.Options`; {} for the choices of the paper.
 
     Raises:
-        ValueError: the figure or an option is unknown, or the source lacks a requested value.
+        ValueError: the figure or an option is unknown, or the figure does not use the option, or
+            the source lacks a requested value.
         BlockError: a file is not readable, or lacks the observable.
         OSError: a file cannot be written.
     """
@@ -79,11 +78,13 @@ def draw(name: str, data: str | Path | list[Path], out_stem: str | Path, options
             if options or not any(shortage.used == 0 for shortage in short):
                 raise
             table = pd.DataFrame(columns=list(module.COLUMNS))
+        if not table.empty:
+            chosen.check_used(name)
         law = law_of(source[0]) if isinstance(source, list) else contact_law(source)
         loaded = compressed_with_friction(source, table)
     title, empty = FIGURES[name].title, getattr(module, "EMPTY", "")
     lacking = missing.notes(name, short, table, empty)
-    with matplotlib.style.context(STYLE):
+    with appearance.house_style():
         figure = Figure()
         FigureCanvasAgg(figure)
         if table.empty:

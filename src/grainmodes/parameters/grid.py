@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 CHECKPOINT_SPACING = 0.01
@@ -9,6 +10,12 @@ CHECKPOINT_SPACING = 0.01
 
 LOWEST_CHECKPOINT = 0.80
 """First checkpoint: the first job of a trajectory compresses from random placement to here."""
+
+MAX_SEED = 2**63 - 1
+"""Largest seed: files hold seeds as integers of 64 bits."""
+
+MAX_SEEDS_PER_FILE = 10_000
+"""Largest number of seeds in a file."""
 
 
 @dataclass(frozen=True)
@@ -38,14 +45,22 @@ def parse_seeds(text: str) -> range:
     """The seeds of a block name.
 
     Raises:
-        ValueError: `text` is not `first-last` with 0 <= first <= last.
+        ValueError: `text` is not `first-last` with 0 <= first <= last, or a seed is too large, or
+            there are too many.
     """
-    first, _, last = text.partition("-")
-    if not (first.isdigit() and last.isdigit() and int(first) <= int(last)):
+    ends = re.fullmatch(r"([0-9]{1,100})-([0-9]{1,100})", text)
+    if not ends or int(ends[1]) > int(ends[2]):
         raise ValueError(
             f"seeds {text!r}: expected first-last with first <= last, such as 0000-0007"
         )
-    return range(int(first), int(last) + 1)
+    first, last = int(ends[1]), int(ends[2])
+    if last > MAX_SEED:
+        raise ValueError(f"seeds {text!r}: expected seeds of at most {MAX_SEED}, got {last}")
+    if last - first >= MAX_SEEDS_PER_FILE:
+        raise ValueError(
+            f"seeds {text!r}: expected at most {MAX_SEEDS_PER_FILE} seeds, got {last - first + 1}"
+        )
+    return range(first, last + 1)
 
 
 def seed_blocks(count: int, size: int) -> list[str]:
@@ -65,10 +80,12 @@ def phi_at_step(initial_phi: float, phi_step: float, step: int) -> float:
 def checkpoint_at_or_below(phi: float) -> float:
     """The highest checkpoint of a trajectory that does not exceed φ.
 
-    >>> [checkpoint_at_or_below(p) for p in (0.80, 0.845, 0.9)]
-    [0.8, 0.84, 0.9]
+    >>> [checkpoint_at_or_below(p) for p in (0.80, 0.845, 0.9, 0.8999999999)]
+    [0.8, 0.84, 0.9, 0.89]
     """
-    return round(int(round(phi / CHECKPOINT_SPACING, 6)) * CHECKPOINT_SPACING, 12)
+    nearest = round(phi / CHECKPOINT_SPACING)
+    checkpoint = round(nearest * CHECKPOINT_SPACING, 12)
+    return checkpoint if checkpoint <= phi else round((nearest - 1) * CHECKPOINT_SPACING, 12)
 
 
 def checkpoints_up_to(phi: float) -> list[float]:

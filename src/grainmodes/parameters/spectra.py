@@ -21,6 +21,12 @@ ROTATIONAL_DIVISIONS = 100
 """Paper A's bins, see `statistics.binning`: intervals of the whole range, how many of the highest
 are divided anew, into how many, and divisions around the rotational band."""
 
+MIN_BIN_DENSITY = 0.01
+"""Smallest factor on the numbers 500 and 100 of A's linear bins: it leaves one of the latter."""
+
+MAX_DENSE_GRAINS = 20_000
+"""Largest N of a dense spectrum: its matrix of 3 N by 3 N takes 29 GB, and LAPACK several."""
+
 BINNED = ("counts", "binned_averages")
 """Kinds of spectrum that hold bins rather than modes."""
 

@@ -9,6 +9,9 @@ another file: hence a cache folder that is named by the fingerprint of the kerne
 from __future__ import annotations
 
 import os
+import stat
+import sys
+import tempfile
 from pathlib import Path
 
 from grainmodes.runtime.provenance import PACKAGE, kernel_hash
@@ -23,7 +26,7 @@ THREAD_VARIABLES = (
 
 
 def prepare(processes: int = 1) -> None:
-    """Set the threads of a process and NUMBA_CACHE_DIR.
+    """Set the threads of a process.
 
     A process has one thread where the environment sets no number; where it does, as Snakemake does
     for a job, the `processes` of the job share them, so that there are never more.
@@ -37,22 +40,66 @@ def prepare(processes: int = 1) -> None:
             given = str(max(1, int(given) // processes)) if given.strip().isdigit() else "1"
         os.environ[name] = given
     os.environ.setdefault("MKL_CBWR", "AUTO")
-    os.environ["NUMBA_CACHE_DIR"] = str(numba_cache())
 
 
 def numba_cache() -> Path:
-    """The folder of the compiled kernels, named by their fingerprint.
+    """A folder for the compiled kernels that can be written, named by their fingerprint.
 
     It lies in NUMBA_CACHE_DIR if that is set, else in the checkout, else in the cache folder of the
-    user.
+    user. Where none can be written it lies among the temporary files, and one sentence says so;
+    processes that this one starts find it in NUMBA_CACHE_DIR.
     """
-    requested = os.environ.get("NUMBA_CACHE_DIR")
-    parent = Path(requested) if requested else _default_parent()
+    folders = [_named(parent) for parent in _parents()]
+    found = next(filter(_is_writable, folders), None)
+    if found is None:
+        found = _named(_temporary_parent())
+        os.environ["NUMBA_CACHE_DIR"] = str(found)
+        tried = " and ".join(map(str, folders)) or "no folder"
+        print(
+            f"grainmodes: expected a writable folder for compiled kernels, got {tried}; "
+            f"they are kept in {found}",
+            file=sys.stderr,
+        )
+    return found
+
+
+def _named(parent: Path) -> Path:
     return parent if parent.name == kernel_hash() else parent / kernel_hash()
 
 
-def _default_parent() -> Path:
+def _parents() -> list[Path]:
+    """Where compiled kernels may lie, the first choice first."""
+    requested = os.environ.get("NUMBA_CACHE_DIR")
+    if requested:
+        return [Path(requested)]
     checkout = PACKAGE.parents[1]
-    if (checkout / "pyproject.toml").is_file() and os.access(checkout, os.W_OK):
-        return checkout / ".numba_cache"
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "grainmodes"
+    of_checkout = [checkout / ".numba_cache"] if (checkout / "pyproject.toml").is_file() else []
+    caches = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    return [*of_checkout, *([Path(caches) / "grainmodes"] if Path(caches).is_absolute() else [])]
+
+
+def _is_writable(folder: Path) -> bool:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return True
+    except OSError:
+        return False
+
+
+def _temporary_parent() -> Path:
+    """A folder of this user alone, since whoever writes a compiled kernel decides what it does.
+
+    Raises:
+        OSError: no folder for temporary files can be written.
+    """
+    shared = Path(tempfile.gettempdir()) / f"grainmodes-{os.getuid()}"
+    try:
+        shared.mkdir(mode=0o700, exist_ok=True)
+        status = shared.lstat()
+    except OSError:
+        return Path(tempfile.mkdtemp(prefix="grainmodes-"))
+    private = stat.S_ISDIR(status.st_mode) and not status.st_mode & 0o022
+    if private and status.st_uid == os.getuid() and _is_writable(shared):
+        return shared
+    return Path(tempfile.mkdtemp(prefix="grainmodes-"))

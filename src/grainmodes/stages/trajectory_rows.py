@@ -47,14 +47,29 @@ def check_start(block: Block, config: dict[str, Any], phi: float) -> None:
     Raises:
         BlockError: they lie above φ, or were made with other parameters.
     """
-    found, expected = (_choices(settings) for settings in (block.mapping("config"), config))
-    differing = [key for key in {**expected, **found} if found.get(key) != expected.get(key)]
-    if differing:
-        parts = [f"expected {key} = {expected.get(key)}, got {found.get(key)}" for key in differing]
+    made = block.mapping("config")
+    if _kind(made) != _kind(config):
+        raise BlockError(
+            f"the checkpoints: expected those of a compression {_kind(config)}, got those of one "
+            f"{_kind(made)}"
+        )
+    found, expected = _choices(made), _choices(config)
+    parts = [
+        f"expected {key} = {value}, got {found.get(key, 'none')}"
+        for key, value in expected.items()
+        if found.get(key) != value
+    ]
+    parts += [f"expected no {key}, got {found[key]}" for key in found if key not in expected]
+    if parts:
         raise BlockError(f"the checkpoints belong to another compression: {'; '.join(parts)}")
     reached = float(block.attributes["phi"])
     if reached > phi + PHI_ROUNDING:
         raise BlockError(f"the checkpoints: expected a phi of at most {phi}, got {reached}")
+
+
+def _kind(config: dict[str, Any]) -> str:
+    """How grains are compressed with these parameters."""
+    return "with friction" if "frictional_compression" in config else "without friction"
 
 
 def _choices(config: dict[str, Any]) -> dict[str, Any]:

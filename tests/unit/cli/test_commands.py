@@ -100,6 +100,53 @@ def test_bad_usage(capsys, words, sentence):
 
 
 @pytest.mark.parametrize(
+    ("option", "text", "sentence"),
+    [
+        ("--seed", str(2**63), f"expected seeds of at most {2**63 - 1}, got {2**63}"),
+        ("--seed", str(2**64), f"expected seeds of at most {2**63 - 1}, got {2**64}"),
+        ("--seeds", "0-99999999999", "expected at most 10000 seeds, got 100000000000"),
+        ("--seed", "²", "seeds '²-²': expected first-last"),
+        ("--n", "1_6", "argument --n: expected a whole number, got '1_6'"),
+        ("--n", "9" * 5000, "argument --n: expected a whole number, got '9999"),
+        ("--phi", "٠.٩", "argument --phi: expected a number, got '٠.٩'"),
+        ("--kt", "1_0", "argument --kt: expected a number, got '1_0'"),
+        ("--friction-coefficient", "x", "--friction-coefficient: expected a number, got 'x'"),
+        ("--settings", '{"a": {"b": 1, "b": 2}}', "every key of an object once, got 'b' twice"),
+        ("--settings", "[" * 5000, "argument --settings: expected JSON, got '[[["),
+        ("--settings", f'{{"a": {"9" * 5000}}}', "argument --settings: expected JSON, got "),
+    ],
+)
+def test_bad_numbers_are_bad_usage(capsys, tmp_path, option, text, sentence):
+    usual = {"--n": "16", "--phi": "0.9", "--kt": "1", "--seed": "0", "-o": str(tmp_path / "p.nc")}
+    usual.pop("--seed" if option == "--seeds" else option, None)
+    words = [word for pair in (usual | {option: text}).items() for word in pair]
+    with pytest.raises(SystemExit) as stop:
+        main(["point", *words])
+    assert stop.value.code == 2
+    last = capsys.readouterr().err.splitlines()[-1]
+    assert sentence in last and len(last) < 300
+    assert not list(tmp_path.iterdir())
+
+
+def test_minus_zero_is_zero(tmp_path, study):
+    for kt in ("0", "-0.0"):
+        words = ["rigidity", str(study / "packings.nc"), "--kt", kt]
+        assert main([*words, "-o", str(tmp_path / f"{kt}.nc")]) == 0
+    assert (tmp_path / "-0.0.nc").read_bytes() == (tmp_path / "0.nc").read_bytes()
+
+
+def test_a_packing_just_below_a_checkpoint(tmp_path):
+    """Its trajectory ends at the checkpoint before."""
+    words = ["point", "--n", "16", "--kt", "1e-4", "--seed", "1", "--settings", COARSE]
+    for phi in ("0.8999999999", "0.9"):
+        assert main([*words, "--phi", phi, "-o", str(tmp_path / f"{phi}.nc")]) == 0
+    near, at = (read_block(tmp_path / f"{phi}.nc") for phi in ("0.8999999999", "0.9"))
+    assert near.variables["converged"].all() and near.attributes["phi"] == 0.8999999999
+    assert near.variables["pressure"] != at.variables["pressure"]
+    assert near.variables["pressure"] == pytest.approx(at.variables["pressure"], rel=0.2)
+
+
+@pytest.mark.parametrize(
     ("words", "sentence"),
     [
         (["--n", "15", "--phi", "0.9", "--kt", "1"], "--n: expected a whole even number"),
@@ -109,6 +156,7 @@ def test_bad_usage(capsys, words, sentence):
         ),
         (["--n", "16", "--phi", "0.5", "--kt", "1"], "--phi: expected a number from 0.8"),
         (["--n", "16", "--phi", "nan", "--kt", "1"], "--phi: expected a number"),
+        (["--n", "16", "--phi", "1e999", "--kt", "1"], "--phi: expected a number"),
         ([*SMALL, "--kt", "-1"], "--kt: expected a number from 0.0"),
         (
             [*SMALL, "--kt", "1", "--friction-coefficient", "1"],
@@ -219,7 +267,7 @@ def test_a_figure_of_fields_and_one_of_two_ensembles(tmp_path, study, capsys):
     assert main(figure) == 0
     assert (tmp_path / "affine.csv").exists()
     assert main(["figure", "g_phi", "a.nc", "b.nc", "-o", str(tmp_path / "g")]) == 1
-    assert "figure g_phi: expected one ensemble, got 2 files" in capsys.readouterr().err
+    assert "figure: g_phi: expected one ensemble, got 2 files" in capsys.readouterr().err
 
 
 def test_a_spectrum_of_nothing_is_refused(capsys, tmp_path, study):
@@ -261,14 +309,66 @@ def test_showing_a_folder_is_refused(tmp_path, capsys):
     assert f"{tmp_path}: expected a file, got a folder" in capsys.readouterr().err
 
 
-def test_a_reader_that_has_seen_enough_ends_a_command(study):
-    script = "import sys; from grainmodes.cli import main; sys.exit(main(sys.argv[1:]))"
-    command = [sys.executable, "-c", script, "show", str(study / "packings.nc")]
+def run(*words: str, stdout=subprocess.PIPE, **variables: str) -> subprocess.CompletedProcess:
+    """`python -m grainmodes` in a process of its own."""
+    command = [sys.executable, "-m", "grainmodes", *words]
+    environment = os.environ | variables
+    return subprocess.run(command, stdout=stdout, stderr=subprocess.PIPE, env=environment)
+
+
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize("words", [["show", "packings.nc"], ["--help"]])
+def test_a_reader_that_has_seen_enough_ends_a_command(study, words, unbuffered):
+    """With the status that a shell gives to `cat`."""
+    words = [str(study / word) if word.endswith(".nc") else word for word in words]
     read, write = os.pipe()
     os.close(read)
-    run = subprocess.run(command, stdout=write, stderr=subprocess.PIPE, text=True)
+    ended = run(*words, stdout=write, PYTHONUNBUFFERED=unbuffered)
     os.close(write)
-    assert (run.returncode, run.stderr) == (0, "")
+    assert (ended.returncode, ended.stderr) == (141, b"")
+
+
+def test_a_broken_pipe_within_is_no_reader_that_has_seen_enough(monkeypatch, capsys):
+    """It is that of a child, such as a worker that was killed."""
+
+    def broken(arguments):
+        raise BrokenPipeError(32, "Broken pipe")
+
+    monkeypatch.setattr("grainmodes.cli.show.show", broken)
+    assert main(["show", "x.nc"]) == 1
+    assert "Broken pipe" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_output_that_cannot_be_written_is_an_error(study, unbuffered):
+    with open("/dev/full", "wb") as full:
+        ended = run("show", str(study / "packings.nc"), stdout=full, PYTHONUNBUFFERED=unbuffered)
+    assert ended.returncode == 1
+    assert len(ended.stderr.splitlines()) == 1 and b"No space left on device" in ended.stderr
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "cp1252"])
+def test_characters_that_a_terminal_lacks_are_escaped(encoding):
+    ended = run("claims", "--reference", PYTHONIOENCODING=encoding)
+    assert (ended.returncode, ended.stderr) == (0, b"")
+    assert b"\\u03c6" in ended.stdout
+    whole = run("claims", "--reference", PYTHONIOENCODING="utf-8").stdout.decode()
+    assert ended.stdout == whole.encode(encoding, "backslashreplace")
+
+
+def test_python_without_docstrings_has_the_same_claims():
+    words = ["-m", "grainmodes", "claims", "--reference"]
+    made = [
+        subprocess.run([sys.executable, *options, *words], capture_output=True, check=True).stdout
+        for options in ([], ["-OO"])
+    ]
+    assert made[0] == made[1] and b"holds" in made[0]
+
+
+def test_a_command_is_told_once_where_it_has_no_data(capsys):
+    assert main(["claims"]) == 1
+    said = "grainmodes claims: expected either files or --reference, got neither\n"
+    assert capsys.readouterr().err == said
 
 
 @pytest.mark.parametrize("command", ["complex-pairs", "spectrum-hessian"])

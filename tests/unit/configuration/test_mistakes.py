@@ -10,6 +10,9 @@ from scenes import GRID, scene_of_grids, scene_with
 
 MISTAKES = [  # key, value, parts of the message with " … " for what lies between
     ("study", "a b", "study: expected a name … got 'a b'"),
+    ("study", "t\n", "study: expected a name … got 't\\n'"),
+    ("study", "a" * 101, "study: expected a name of at most 100 letters"),
+    ("study", "../up", "study: expected a name … the first a letter or a digit, got '../up'"),
     ("colour", 1, "unknown key 'colour', expected one of study, grids"),
     (
         "grid.phis",
@@ -29,7 +32,13 @@ MISTAKES = [  # key, value, parts of the message with " … " for what lies betw
     ("grid.phi", [float("nan")], "grids[0].phi[0]: expected a number … got 'nan'"),
     ("grid.phi", [float("inf")], "grids[0].phi[0]: expected a number … got inf"),
     ("grid.phi", ["high"], "grids[0].phi[0]: expected a number … got 'high'"),
-    ("grid.phi", [0.84, 0.9, "0.840"], "grids[0].phi: duplicate value 0.84: values must be unique"),
+    ("grid.phi", [0.84, 0.9, 0.840], "grids[0].phi: duplicate value 0.84: values must be unique"),
+    ("grid.phi", ["0.9"], "grids[0].phi[0]: expected a number … got '0.9'"),
+    ("grid.phi", [10**400], "grids[0].phi[0]: expected a number from 0.8 to 1.2, got 1000"),
+    ("grid.phi", [0.9, 0.9 + 1e-10], "phi: expected values that differ, got 0.9 and 0.9000000001"),
+    ("grid.kt", [1e-4, 1e-4 * (1 + 1e-12)], "grids[0].kt: expected values that differ, got 0.0001"),
+    ("grid.kt", [0.5 * k for k in range(1001)], "grids[0].kt: expected at most 1000 items, got 10"),
+    ("grid.kt", [0.0, -0.0], "grids[0].kt: duplicate value 0.0: values must be unique"),
     ("grid.kt", [-1], "grids[0].kt[0]: expected a number from 0.0 to 1000.0 (k_N), got -1.0"),
     ("grid.kt", [1, 1.0], "grids[0].kt: duplicate value 1.0: values must be unique"),
     ("grid.kt", ..., "grids[0]: key 'kt' is missing"),
@@ -72,13 +81,24 @@ MISTAKES = [  # key, value, parts of the message with " … " for what lies betw
     ),
     (
         "grid.observables",
+        {"rigidity": False, "step_strain": False, "spectrum": "none"},
+        "grids[0].observables: expected at least one observable, got none",
+    ),
+    (
+        "grid.observables",
+        {"coarse_run": True},
+        "grids[0].observables.shear: expected true because observables.coarse_run is true",
+    ),
+    (
+        "grid.observables",
         {"rattlers": True, "spectrum": "none"},
         "grids[0].observables.spectrum: expected eigenvalues or modes because "
         "observables.rattlers is true, got none",
     ),
     ("protocol.spectrum.method", "lanczos", "one of auto, dense, slicing, inertia_counts"),
     ("protocol.spectrum.factorisation", "mumps", "one of auto, superlu, pardiso"),
-    ("protocol.spectrum.bin_density", 0, "expected a number above 0.0 and up to 1.0"),
+    ("protocol.spectrum.bin_density", 0.009, "expected a number from 0.01 to 1.0"),
+    ("protocol.spectrum.bin_density", "1e-1", "expected a number from 0.01 to 1.0, got '1e-1'"),
     ("protocol.spectrum.modes_per_bin", 5, "expected a whole number from 6"),
     ("protocol.spectrum.cells_per_bin", 0, "expected a whole number from 1"),
     (
@@ -105,6 +125,7 @@ MISTAKES = [  # key, value, parts of the message with " … " for what lies betw
     ),
     ("protocol.rattlers.threshold", 3, "expected a whole number from 0 to 2"),
     ("figures", ["g_psi"], "unknown figure 'g_psi', expected one of g_phi"),
+    ("figures", [], "figures: expected a list, each item a text, got []"),
     ("figures", ["g_phi", "g_phi"], "figures: duplicate value 'g_phi': values must be unique"),
 ]
 
@@ -135,7 +156,7 @@ def test_hardly_a_configuration(config):
 def test_hardly_a_file(tmp_path, text):
     path = tmp_path / "scene.yaml"
     path.write_text(text)
-    with pytest.raises(ConfigurationError, match=r"scene\.yaml: "):
+    with pytest.raises(ConfigurationError, match=r"scene\.yaml(, line 1)?: "):
         read_scene(path)
 
 
@@ -210,3 +231,73 @@ def test_grids_of_one_n_share_their_preparation():
     scene = scene_of_grids({}, FRICTIONAL | {"n": [128]})
     assert scene.preparation_of(128, 0.9, 1.0) == "frictional"
     assert scene.preparation_of(16, 0.9, 1.0) == "frictionless"
+
+
+PAIRS = {"rigidity": False, "step_strain": False, "spectrum": "none", "complex_pairs": True}
+
+
+@pytest.mark.parametrize(
+    ("kt", "sentence"),
+    [
+        (
+            [0.0],
+            "expected a number above 0 because observables.complex_pairs is true, and does not "
+            "exist without friction, got only 0",
+        ),
+        (
+            [-0.0, 1.0],
+            "expected numbers above 0, because none of the observables of this grid exists without "
+            "friction, got 0.0",
+        ),
+    ],
+)
+def test_a_point_that_asks_for_nothing(kt, sentence):
+    with pytest.raises(ConfigurationError) as caught:
+        scene_of_grids({"kt": kt, "observables": PAIRS})
+    assert str(caught.value) == f"grids[0].kt: {sentence}"
+    assert scene_of_grids({"kt": [0.0, 1.0], "observables": PAIRS | {"rigidity": True}})
+
+
+def test_a_scene_without_friction_that_asks_for_pairs():
+    grid = {key: value for key, value in GRID.items() if key != "kt"}
+    scene = {"study": "f", "grids": [grid | {"observables": PAIRS}]}
+    with pytest.raises(ConfigurationError, match="does not exist without friction, got only 0"):
+        scene_from(scene | {"effects": {"friction": False}})
+
+
+def test_values_that_differ_by_rounding_in_two_grids():
+    """Grids of other n may have them: no curve holds both."""
+    with pytest.raises(ConfigurationError) as caught:
+        scene_of_grids({"phi": [0.9]}, {"phi": [0.85, 0.9 + 5e-10]})
+    assert str(caught.value).startswith(
+        "grids[1].phi: expected values that differ, got 0.9 and 0.9"
+    )
+    assert scene_of_grids({"phi": [0.9]}, {"phi": [0.9 + 5e-10], "n": [128]})
+
+
+@pytest.mark.parametrize("spectrum", ["counts", "modes"])
+def test_a_dense_spectrum_has_its_size(spectrum):
+    grid = {"n": [20_002], "observables": {"spectrum": spectrum}}
+    dense = {"protocol": {"spectrum": {"method": "dense"}}}
+    with pytest.raises(ConfigurationError) as caught:
+        scene_of_grids(grid, **dense)
+    assert str(caught.value) == (
+        "protocol.spectrum.method: expected auto, slicing or inertia_counts for spectra of more "
+        "than 20000 grains, got dense and grids[0].n = 20002"
+    )
+    assert scene_of_grids(grid | {"n": [20_000]}, **dense)
+    assert scene_of_grids(grid | {"observables": {"spectrum": "none"}}, **dense)
+
+
+def test_a_scene_of_too_many_files():
+    many = {"phi": [0.8 + k * 1e-4 for k in range(1000)], "kt": [1.0 + k for k in range(200)]}
+    with pytest.raises(ConfigurationError) as caught:
+        scene_of_grids(many, {"n": [128]}, seeds_per_job=1)
+    assert str(caught.value).startswith("grids[0]: expected at most 200000 files of seeds in the")
+    assert len(str(caught.value).splitlines()) == 1
+
+
+def test_keys_of_several_types_are_refused():
+    with pytest.raises(ConfigurationError) as caught:
+        scene_from({"study": "s", "grids": [GRID], 1: 2, "colour": 3, None: 4})
+    assert len(str(caught.value).splitlines()) == 3

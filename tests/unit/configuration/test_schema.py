@@ -100,8 +100,3 @@ def test_completing_leaves_the_configuration_alone():
     before = deepcopy(config)
     complete(config, schema())
     assert config == before
-
-
-@pytest.mark.parametrize("text", ["1e-8", "1.0e-8", " 1E-08 "])
-def test_yaml_numbers_without_a_point_are_numbers(text):
-    assert scene_with("grid.kt", [text]).grids[0].kt == (1e-8,)

@@ -9,7 +9,7 @@ import yaml
 from cost_fixtures import GRID, TABLE
 from grainmodes.cli import main
 from grainmodes.configuration import read_scene
-from grainmodes.cost import COSTS, estimate
+from grainmodes.cost import COSTS, check_budget, estimate, read_table
 from scenes import CONFIG
 
 
@@ -84,5 +84,48 @@ def test_a_table_without_laws_says_what_it_lacks(capsys, tmp_path):
 
 
 def test_there_is_a_core_at_least(capsys):
-    assert main(["cost", str(CONFIG / "default.yaml"), "--cores", "0"]) == 1
-    assert "--cores: expected a whole number from 1, got 0" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        main(["cost", str(CONFIG / "default.yaml"), "--cores", "0"])
+    assert "--cores: expected a whole number above 0, got '0'" in capsys.readouterr().err
+
+
+MANY = """
+grids:
+  - {n: [10000000], phi: [0.9], kt: [1e-4], seeds: 1, observables: {spectrum: modes}}
+"""
+LONG = """
+grids:
+  - {n: [16], phi: [0.9], kt: [1e-4], seeds: 1, observables: {shear: true}}
+protocol: {shear: {strain: 10.0, step: 1e-9, min_step: 1e-10, lowest_eigenvalue: states}}
+"""
+WIDE = """
+grids:
+  - n: [65536]
+    phi: [0.90, 0.91, 0.92, 0.93, 0.94, 0.95, 0.96, 0.97, 0.98, 0.99]
+    kt: [1e-4, 1.0]
+    seeds: 10000
+    observables: {spectrum: modes}
+seeds_per_job: 1
+"""
+
+
+@pytest.mark.parametrize(
+    ("scene", "sentence"),
+    [
+        (MANY, "grids[0]: expected jobs of at most 1000 CPU hours and 1000 GB, got "),
+        (LONG, "grids[0]: expected jobs of at most 1000 CPU hours and 1000 GB, got "),
+        (WIDE, "grids: expected a scene of at most 1e+06 CPU hours and 100 TB, got "),
+    ],
+)
+def test_a_scene_has_a_budget(capsys, tmp_path, scene, sentence):
+    path = tmp_path / "scene.yaml"
+    path.write_text(f"study: large\n{scene}", encoding="utf-8")
+    assert main(["cost", str(path)]) == 1
+    said = capsys.readouterr()
+    (line,) = said.err.splitlines()
+    assert line.startswith(f"grainmodes cost: {sentence}") and said.out == ""
+
+
+@pytest.mark.parametrize("path", sorted(CONFIG.glob("*.yaml")), ids=lambda path: path.stem)
+def test_shipped_scenes_are_within_it(path):
+    check_budget(read_scene(path), read_table())

@@ -3,6 +3,7 @@
 import time
 from pathlib import Path
 
+import matplotlib
 import numpy as np
 import pytest
 
@@ -65,7 +66,7 @@ def test_a_study_without_a_jammed_sample_still_has_its_figures(name, unjammed, t
         ("dos", {"kt": (3.0,)}, "kt: expected one of 1e-08, .* got 3.0"),
         ("dos", {"n": 17}, "n: expected one of 16 in this ensemble, got 17"),
         ("dos_n", {"kt": (1e-8, 1.0)}, "kt: expected one value for this figure, got 2"),
-        ("dos", {"bin_density": 0.0}, r"expected a bin_density in \(0, 1\], got 0.0"),
+        ("dos", {"bin_density": 0.0}, "expected a bin_density from 0.01 to 1, got 0.0"),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_and_leaves_no_file(
@@ -109,7 +110,18 @@ def test_a_figure_that_fails_half_way_leaves_the_old_one(path, tmp_path, monkeyp
 
 @pytest.mark.parametrize(
     ("value", "text"),
-    [(1e-8, "10^{-8}"), (0.0, "0"), (2.0, "2"), (0.03, r"3\times 10^{-2}"), (1e-2, "10^{-2}")],
+    [
+        (1e-8, "10^{-8}"),
+        (0.0, "0"),
+        (2.0, "2"),
+        (0.03, r"3\times 10^{-2}"),
+        (1e-2, "10^{-2}"),
+        (9.9996e-5, "10^{-4}"),
+        (9.994e-5, r"9.99\times 10^{-5}"),
+        (0.09999, "0.09999"),
+        (999.7, r"10^{3}"),
+        (-3e-5, r"-3\times 10^{-5}"),
+    ],
 )
 def test_numbers_as_formulas(value, text):
     assert labels.power(value) == text
@@ -121,3 +133,46 @@ def test_labels_of_samples_and_fractions():
     assert labels.count_samples([1]) == "1 sample"
     assert [labels.count_samples([k], "state") for k in (1, 3)] == ["1 state", "3 states"]
     assert [labels.fraction(phi) for phi in (0.9, 0.845)] == ["0.90", "0.845"]
+
+
+USERS_CHOICES = {
+    "text.usetex": True,
+    "savefig.bbox": "tight",
+    "savefig.facecolor": "black",
+    "font.family": "monospace",
+    "axes.facecolor": "yellow",
+    "figure.dpi": 31,
+    "pdf.compression": 0,
+    "axes.prop_cycle": matplotlib.cycler(color=["red"]),
+    "lines.linestyle": ":",
+}
+"""Of a matplotlibrc."""
+
+
+def test_a_matplotlibrc_of_the_user_changes_no_byte(path, tmp_path):
+    draw("g_phi", path, tmp_path / "ours", {})
+    with matplotlib.rc_context(USERS_CHOICES):
+        draw("g_phi", path, tmp_path / "theirs", {})
+        assert matplotlib.rcParams["figure.dpi"] == 31, "what they chose stays theirs"
+    for form in ("png", "pdf", "csv", "txt"):
+        made = [(tmp_path / f"{name}.{form}").read_bytes() for name in ("ours", "theirs")]
+        assert made[0] == made[1], form
+
+
+@pytest.mark.parametrize(
+    ("figure", "options", "sentence"),
+    [
+        ("nonaffine_crossing", {"kt": (1.0,)}, "expected no kt, because it shows no choice of it"),
+        ("nonaffine_crossing", {"seed": 1}, "expected no seed, because it shows no choice of it"),
+        ("g_phi", {"phi": 0.9}, "expected no phi, because it shows no choice of it, got 0.9"),
+        ("g_phi", {"bin_density": 0.5}, "expected no bin_density"),
+        ("dos", {"seed": 0}, "expected no seed"),
+        ("dos", {"bin_density": 0.009}, "expected a bin_density from 0.01 to 1, got 0.009"),
+    ],
+)
+def test_an_option_that_a_figure_does_not_use_is_refused(
+    whole, tmp_path, figure, options, sentence
+):
+    with pytest.raises(ValueError, match=f"figure {figure}: {sentence}"):
+        draw(figure, whole, tmp_path / "figure", options)
+    assert not list(tmp_path.iterdir())

@@ -4,6 +4,7 @@ import ast
 import os
 import subprocess
 import sys
+import tempfile
 
 import pytest
 
@@ -179,12 +180,57 @@ def test_the_cache_is_named_by_the_kernels(tmp_path, monkeypatch):
 
 
 def test_the_cache_lies_in_the_checkout_or_with_the_user(tmp_path, monkeypatch):
-    monkeypatch.delenv("NUMBA_CACHE_DIR")
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
     checkout = provenance.PACKAGE.parents[1]
     assert environment.numba_cache().parent == checkout / ".numba_cache"
     monkeypatch.setattr(environment, "PACKAGE", tmp_path / "lib" / "grainmodes")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     assert environment.numba_cache().parent == tmp_path / "grainmodes"
+
+
+NOWHERE = "/dev/null/grainmodes"
+"""A folder that nobody can make, whatever the rights of who runs the tests."""
+
+
+@pytest.mark.parametrize("requested", [NOWHERE, ""])
+def test_without_a_writable_folder_kernels_are_kept_in_a_temporary_one(
+    tmp_path, monkeypatch, capsys, requested
+):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", requested)
+    monkeypatch.setenv("HOME", NOWHERE)
+    monkeypatch.setenv("XDG_CACHE_HOME", "")
+    monkeypatch.setattr(environment, "PACKAGE", tmp_path / "lib" / "grainmodes")
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    found = environment.numba_cache()
+    assert found.parent.parent == tmp_path
+    assert found.parent.stat().st_mode & 0o077 == 0, "who writes code here runs it"
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(
+        f"grainmodes: expected a writable folder for compiled kernels, got /dev"
+    )
+    assert line.endswith(f"; they are kept in {found}")
+    assert environment.numba_cache() == found, "and so do the processes of this one"
+    assert capsys.readouterr().err == ""
+
+
+def test_a_temporary_folder_that_others_can_write_is_not_trusted(tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", NOWHERE)
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    shared = tmp_path / f"grainmodes-{os.getuid()}"
+    shared.mkdir()
+    shared.chmod(0o777)
+    assert environment.numba_cache().parent != shared
+
+
+def test_a_command_works_without_a_writable_folder(tmp_path):
+    """Instead of numba's traceback, "cannot cache function"."""
+    script = "from grainmodes.kernels import compiler; print(compiler.numba.config.CACHE_DIR)"
+    variables = os.environ | {"NUMBA_CACHE_DIR": NOWHERE, "TMPDIR": str(tmp_path)}
+    run = subprocess.run(
+        [sys.executable, "-c", script], env=variables, capture_output=True, text=True, check=True
+    )
+    assert run.stdout.startswith(str(tmp_path))
+    assert len(run.stderr.splitlines()) == 1
 
 
 def test_threads_are_pinned_where_the_user_is_silent():

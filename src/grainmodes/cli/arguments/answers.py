@@ -25,7 +25,9 @@ def _cost(commands: Commands) -> None:
     sentence = "Estimate what a scene will cost before it runs: CPU hours, memory and disk."
     command = options.command(commands, "cost", "scenes:cost", sentence)
     command.add_argument("config", type=Path, help="a scene, such as config/default.yaml")
-    command.add_argument("--cores", type=int, default=2, help="number of jobs at a time; default 2")
+    command.add_argument(
+        "--cores", type=options.positive, default=2, help="number of jobs at a time; default 2"
+    )
     _costs(command)
 
 

@@ -56,7 +56,8 @@ def _figure(commands: Commands) -> None:
     )
     _reference(command, "draw from a reference ensemble of the package, by default the first one")
     _shown(command)
-    command.add_argument("--bin-density", type=float, help="factor on the numbers of linear bins")
+    density = "factor on the numbers of linear bins"
+    command.add_argument("--bin-density", type=options.number, help=density)
     options.output(command, "path, to which the suffixes .png, .pdf, .csv and .txt are added")
 
 
@@ -69,12 +70,12 @@ def _film(commands: Commands) -> None:
 
 
 def _shown(command: ArgumentParser) -> None:
-    command.add_argument("--n", type=int, help="number of grains to show")
-    command.add_argument("--phi", type=float, help="area fraction to show")
+    command.add_argument("--n", type=options.whole, help="number of grains to show")
+    command.add_argument("--phi", type=options.number, help="area fraction to show")
     command.add_argument(
-        "--kt", type=float, nargs="+", help="tangential stiffnesses k_T / k_N to show"
+        "--kt", type=options.number, nargs="+", help="tangential stiffnesses k_T / k_N to show"
     )
-    command.add_argument("--seed", type=int, help="seed of the sample to show")
+    command.add_argument("--seed", type=options.whole, help="seed of the sample to show")
 
 
 def _reference(command: ArgumentParser, sentence: str) -> None:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 from argparse import ArgumentParser
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from grainmodes.parameters.grid import parse_seeds
 
@@ -25,18 +26,18 @@ def command(commands: Commands, name: str, run: str, sentence: str) -> ArgumentP
 
 def n(command: ArgumentParser) -> None:
     """`--n`, required."""
-    command.add_argument("--n", type=int, required=True, help="number of grains, an even number")
+    command.add_argument("--n", type=whole, required=True, help="number of grains, an even number")
 
 
 def phi(command: ArgumentParser) -> None:
     """`--phi`, required."""
-    command.add_argument("--phi", type=float, required=True, help="area fraction")
+    command.add_argument("--phi", type=number, required=True, help="area fraction")
 
 
 def kt(command: ArgumentParser) -> None:
     """`--kt`, required."""
     command.add_argument(
-        "--kt", type=float, required=True, help="tangential stiffness k_T / k_N; 0 is frictionless"
+        "--kt", type=number, required=True, help="tangential stiffness k_T / k_N; 0 is frictionless"
     )
 
 
@@ -88,17 +89,39 @@ def _seed_range(text: str) -> range:
         raise argparse.ArgumentTypeError(str(error)) from error
 
 
+def whole(text: str) -> int:
+    """A whole number, in digits alone."""
+    if not re.fullmatch(r"[-+]?[0-9]{1,100}", text):
+        raise argparse.ArgumentTypeError(f"expected a whole number, got {_shown(text)}")
+    return int(text)
+
+
 def positive(text: str) -> int:
     """A whole number above 0."""
-    if not (text.isdigit() and int(text) > 0):
-        raise argparse.ArgumentTypeError(f"expected a whole number above 0, got {text!r}")
+    if not re.fullmatch(r"[0-9]{1,100}", text) or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"expected a whole number above 0, got {_shown(text)}")
     return int(text)
+
+
+def number(text: str) -> float:
+    """A number; -0.0 is 0.0, so that both give the same files."""
+    try:
+        return _float(text) + 0.0
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"expected a number, got {_shown(text)}") from error
+
+
+def _float(text: str) -> float:
+    """The number that a text spells; Python alone takes 1_000 and the digits of every script."""
+    if "_" in text or not text.isascii():
+        raise ValueError(text)
+    return float(text)
 
 
 def seconds(text: str) -> float:
     """A time above 0."""
     try:
-        value = float(text)
+        value = _float(text)
     except ValueError:
         value = 0.0
     if not 0.0 < value < float("inf"):
@@ -108,9 +131,9 @@ def seconds(text: str) -> float:
 
 def share(text: str) -> float:
     """A fraction between 0 and 1, such as 1% or 0.01."""
-    number, percent, rest = text.partition("%")
+    digits, percent, rest = text.partition("%")
     try:
-        value = float(number) / (100.0 if percent else 1.0)
+        value = _float(digits) / (100.0 if percent else 1.0)
     except ValueError:
         value = 0.0
     if rest or not 0.0 < value < 1.0:
@@ -121,11 +144,30 @@ def share(text: str) -> float:
 
 
 def json_object(text: str) -> dict:
-    """A JSON object."""
+    """A JSON object with every key once."""
     try:
-        value = json.loads(text)
-    except json.JSONDecodeError as error:
-        raise argparse.ArgumentTypeError(f"expected JSON, got {text!r} ({error})") from error
+        value = json.loads(text, object_pairs_hook=_every_key_once)
+    except (ValueError, RecursionError) as error:
+        raise argparse.ArgumentTypeError(f"expected JSON, got {_shown(text)} ({error})") from error
     if not isinstance(value, dict):
-        raise argparse.ArgumentTypeError(f"expected a JSON object such as {{}}, got {text!r}")
+        raise argparse.ArgumentTypeError(f"expected a JSON object such as {{}}, got {_shown(text)}")
     return value
+
+
+def _every_key_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """The object of these keys and values.
+
+    Raises:
+        ValueError: a key stands twice.
+    """
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next(key for key in keys if keys.count(key) > 1)
+        raise ValueError(f"expected every key of an object once, got {twice!r} twice")
+    return found
+
+
+def _shown(text: str) -> str:
+    """A text in a message, cut where it is long."""
+    return repr(text) if len(text) <= 60 else f"{text[:57]!r}..."

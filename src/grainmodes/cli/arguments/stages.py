@@ -82,7 +82,10 @@ def _point(commands: Commands) -> None:
     command.add_argument("--normal", choices=NORMAL_LAWS, help="normal law")
     command.add_argument("--tangential", choices=TANGENTIAL_LAWS, help="tangential law")
     command.add_argument(
-        "--friction-coefficient", type=float, metavar="MU", help="Coulomb's friction coefficient"
+        "--friction-coefficient",
+        type=options.number,
+        metavar="MU",
+        help="Coulomb's friction coefficient",
     )
     command.add_argument(
         "--preparation",

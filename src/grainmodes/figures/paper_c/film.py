@@ -8,16 +8,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import matplotlib.style
 import numpy as np
 from matplotlib.animation import PillowWriter
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from grainmodes.figures import STYLE
 from grainmodes.figures.paper_c import release_spirals
 from grainmodes.figures.shared import labels, missing
-from grainmodes.figures.shared.appearance import ROTATIONAL, TRANSLATIONAL
+from grainmodes.figures.shared.appearance import ROTATIONAL, TRANSLATIONAL, house_style
 from grainmodes.figures.shared.release_rows import release_caption
 from grainmodes.figures.shared.sample_files import read_samples
 from grainmodes.figures.shared.selection import Options
@@ -45,10 +43,12 @@ def write(data: list[Path], output: Path, options: dict) -> None:
         OSError: the file cannot be written.
     """
     releases = read_samples(data, "release")
-    table = release_spirals.table(releases, Options.read("release_spirals", options))
-    name = "release_spirals"
+    name, chosen = "release_spirals", Options.read("release_spirals", options)
+    table = release_spirals.table(releases, chosen)
+    if not table.empty:
+        chosen.check_used(name)
     lacking = missing.notes(name, missing.shortages(name, releases), table)
-    with matplotlib.style.context(STYLE):
+    with house_style():
         figure = Figure(figsize=(4.4, 4.8))
         FigureCanvasAgg(figure)
         with replaced(output) as partial:

@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 
+import matplotlib
 import matplotlib.colors
+import matplotlib.style
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+STYLE = Path(__file__).parents[1] / "grainmodes.mplstyle"
+"""The style of all figures."""
 
 RED, BLUE = "#b2182b", "#2166ac"
 """Two colours that colour-blind readers tell apart."""
@@ -25,6 +32,15 @@ MARKERS = "osD^vPX*"
 
 SHORT_AXIS_RATIO = 200
 """Ratio of the limits of an axis below which labels at powers of ten alone would be too few."""
+
+
+@contextmanager
+def house_style() -> Iterator[None]:
+    """The style of all figures alone: what a user's matplotlibrc says has no part in it."""
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.style.use(STYLE)
+        yield
 
 
 def curve_styles(values: list) -> Iterator[tuple]:

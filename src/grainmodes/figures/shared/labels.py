@@ -34,10 +34,11 @@ def power(value: float, digits: int | None = None) -> str:
     """
     if digits is not None:
         value = float(f"{value:.{digits}g}")
-    if value == 0 or 0.1 <= value < 1000:
+    rounded = f"{value:.2e}"
+    if value == 0 or 0.1 <= abs(float(rounded)) < 1000:
         return f"{value:g}"
-    exponent = math.floor(math.log10(value) + 1e-12)
-    factor = f"{value / 10.0**exponent:.3g}"
+    mantissa, exponent = rounded.split("e")
+    factor, exponent = f"{float(mantissa):g}", int(exponent)
     return rf"10^{{{exponent}}}" if factor == "1" else rf"{factor}\times 10^{{{exponent}}}"
 
 

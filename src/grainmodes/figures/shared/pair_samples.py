@@ -35,9 +35,9 @@ def choose_sample(found: list[PairSample], options: Options) -> PairSample | Non
     the first one with a pair as C's Fig. 3 shows it (`longest_pair`).
 
     Raises:
-        ValueError: there is none at a requested value.
+        ValueError: there is none at a requested value, or several kt are requested.
     """
-    requested = {"phi": options.phi, "kt": options.kt and options.kt[0]}
+    requested = {"phi": options.phi, "kt": options.one_kt()}
     found = _at_size(found, options.n)
     for name, value in requested.items():
         if found:

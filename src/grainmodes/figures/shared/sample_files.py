@@ -67,12 +67,12 @@ def at_point(blocks: list[Block], options: Options, paper_n: int) -> list[Block]
 
 
 def at_kt(blocks: list[Block], options: Options) -> list[Block]:
-    """The samples of the first requested k_T; else of the largest.
+    """The samples of the requested k_T; else of the largest.
 
     Raises:
-        ValueError: no sample has the requested k_T.
+        ValueError: no sample has the requested k_T, or several are requested.
     """
-    return _at(blocks, "kt", options.kt and options.kt[0], np.max)
+    return _at(blocks, "kt", options.one_kt(), np.max)
 
 
 def _at(blocks: list[Block], name: str, requested: float | None, choose: Callable) -> list[Block]:

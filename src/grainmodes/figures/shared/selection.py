@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
+
+from grainmodes.parameters.spectra import MIN_BIN_DENSITY
 
 PAPER_PANEL_KTS = (1e-8, 1e-4, 1.0, 10.0)
 """k_T/k_N of the four panels of A, Figs. 8 and 9."""
@@ -14,6 +17,9 @@ PAPER_RATTLER_KTS = (1e-8, 1e-4)
 
 PAPER_WEAK_KT = 1e-8
 """k_T/k_N of A, Figs. 11, 15 and 16."""
+
+NAMES = ("n", "phi", "kt", "bin_density", "seed")
+"""The options of a figure."""
 
 MAX_CURVES = 8
 """Number of curves that can be told apart in one panel; of more values, evenly spread ones are
@@ -37,27 +43,48 @@ class Options:
     kt: tuple[float, ...] | None = None
     bin_density: float | None = None
     seed: int | None = None
+    used: set[str] = field(default_factory=set, init=False, repr=False, compare=False)
+
+    def __getattribute__(self, name: str) -> Any:
+        """The value of an option, which then counts as used."""
+        if name in NAMES:
+            object.__getattribute__(self, "used").add(name)
+        return object.__getattribute__(self, name)
 
     @classmethod
     def read(cls, figure: str, given: dict) -> Options:
         """Options from a dictionary.
 
         Raises:
-            ValueError: a key is unknown, or `bin_density` is not in (0, 1].
+            ValueError: a key is unknown, or `bin_density` leaves less than a bin, or is above 1.
         """
-        known = [field.name for field in fields(cls)]
-        unknown = [key for key in given if key not in known]
+        unknown = [key for key in given if key not in NAMES]
         if unknown:
             raise ValueError(
                 f"figure {figure}: unknown option {unknown[0]!r}, "
-                f"expected one of {', '.join(known)}"
+                f"expected one of {', '.join(NAMES)}"
             )
-        options = cls(**given)
-        if options.bin_density is not None and not 0.0 < options.bin_density <= 1.0:
+        density = given.get("bin_density", 1.0)
+        if not MIN_BIN_DENSITY <= density <= 1.0:
             raise ValueError(
-                f"figure {figure}: expected a bin_density in (0, 1], got {options.bin_density}"
+                f"figure {figure}: expected a bin_density from {MIN_BIN_DENSITY} to 1, "
+                f"got {density}"
             )
-        return options
+        return cls(**given)
+
+    def check_used(self, figure: str) -> None:
+        """Refuse what was requested of a figure that is drawn without it.
+
+        Raises:
+            ValueError: an option is given that the figure did not use.
+        """
+        values = {name: object.__getattribute__(self, name) for name in NAMES}
+        for name, value in values.items():
+            if value is not None and name not in self.used:
+                raise ValueError(
+                    f"figure {figure}: expected no {name}, because it shows no choice of it, "
+                    f"got {value}"
+                )
 
     def one_kt(self) -> float | None:
         """The k_T/k_N of a figure that shows one; None if none is requested.
