@@ -36,7 +36,9 @@ def _nothing(key: str, observables: dict, kts: list[float]) -> Iterator[str]:
     everywhere = requested(observables, kt=1.0)
     if not everywhere:
         yield f"{key}.observables: expected at least one observable, got none"
-    absent = [stage for stage in everywhere if not any(map(_at(stage, observables), kts))]
+    absent = [
+        stage for stage in everywhere if not any(stage.is_requested(observables, kt) for kt in kts)
+    ]
     for stage in absent:
         yield (
             f"{key}.kt: expected a number above 0 because observables.{stage.observable} is true, "
@@ -48,10 +50,6 @@ def _nothing(key: str, observables: dict, kts: list[float]) -> Iterator[str]:
                 f"{key}.kt: expected numbers above 0, because none of the observables of this grid "
                 f"exists without friction, got {kt}"
             )
-
-
-def _at(stage, observables: dict):
-    return lambda kt: stage.is_requested(observables, kt)
 
 
 def _large(config: dict, key: str, grid: dict) -> Iterator[str]:

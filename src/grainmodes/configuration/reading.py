@@ -9,7 +9,7 @@ number 1e-8. There are no merge keys (`<<`); anchors and aliases are those of bo
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -110,7 +110,7 @@ def _float(text: str) -> float:
     return float(text.lower().replace(".inf", "inf").replace(".nan", "nan"))
 
 
-VALUES = {
+VALUES: dict[str, Callable[[str], Any]] = {
     "null": lambda text: None,
     "bool": lambda text: text.lower() == "true",
     "int": _integer,
@@ -123,7 +123,7 @@ VALUES = {
 class _CoreLoader(yaml.SafeLoader):
     """A loader of the core schema: no other tags, no merge keys, every key once."""
 
-    yaml_implicit_resolvers: ClassVar[dict] = {}
+    yaml_implicit_resolvers: ClassVar[dict] = {}  # type: ignore[misc]
     yaml_constructors: ClassVar[dict] = {
         TAG + "map": yaml.SafeLoader.construct_yaml_map,
         TAG + "seq": yaml.SafeLoader.construct_yaml_seq,
@@ -153,7 +153,7 @@ class _CoreLoader(yaml.SafeLoader):
         return super().construct_mapping(node, deep)
 
 
-def _scalar_of_type(kind: str):
+def _scalar_of_type(kind: str) -> Callable[[_CoreLoader, yaml.ScalarNode], Any]:
     def construct(loader: _CoreLoader, node: yaml.ScalarNode) -> Any:
         text = str(loader.construct_scalar(node))
         try:

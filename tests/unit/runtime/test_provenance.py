@@ -205,9 +205,7 @@ def test_without_a_writable_folder_kernels_are_kept_in_a_temporary_one(
     assert found.parent.parent == tmp_path
     assert found.parent.stat().st_mode & 0o077 == 0, "who writes code here runs it"
     (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith(
-        f"grainmodes: expected a writable folder for compiled kernels, got /dev"
-    )
+    assert line.startswith("grainmodes: expected a writable folder for compiled kernels, got /dev")
     assert line.endswith(f"; they are kept in {found}")
     assert environment.numba_cache() == found, "and so do the processes of this one"
     assert capsys.readouterr().err == ""

@@ -37,8 +37,8 @@ def power(value: float, digits: int | None = None) -> str:
     rounded = f"{value:.2e}"
     if value == 0 or 0.1 <= abs(float(rounded)) < 1000:
         return f"{value:g}"
-    mantissa, exponent = rounded.split("e")
-    factor, exponent = f"{float(mantissa):g}", int(exponent)
+    mantissa, power_of_ten = rounded.split("e")
+    factor, exponent = f"{float(mantissa):g}", int(power_of_ten)
     return rf"10^{{{exponent}}}" if factor == "1" else rf"{factor}\times 10^{{{exponent}}}"
 
 
