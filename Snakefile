@@ -11,6 +11,7 @@
 #                          \-> stages of a single sample -> figures       ensemble -> figures, claims
 
 
+include: "workflow/rules/scene.smk"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/packings.smk"
 include: "workflow/rules/response.smk"

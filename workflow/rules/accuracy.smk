@@ -31,7 +31,7 @@ rule accuracy_large:
 
 rule measure_accuracy:
     input:
-        script="measurements/accuracy/measure.py",
+        script=source("measurements/accuracy/measure.py"),
         code=lambda wildcards: sources_of_accuracy(*SHARED, wildcards.name),
     output:
         f"{DIAGRAM}.csv",
@@ -50,7 +50,7 @@ rule measure_accuracy:
 
 rule draw_accuracy:
     input:
-        script="measurements/accuracy/draw.py",
+        script=source("measurements/accuracy/draw.py"),
         table=f"{DIAGRAM}.csv",
         code=sources_of_accuracy("diagram", "panels", "table"),
         style=sources("grainmodes.figures"),
@@ -63,7 +63,7 @@ rule draw_accuracy:
     resources:
         **needs(job_of_reader),
     params:
-        stem=DIAGRAM,
+        stem=stem_of_outputs,
     message:
         "Draw {wildcards.name}, {wildcards.size}."
     shell:

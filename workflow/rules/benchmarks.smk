@@ -3,7 +3,7 @@
 
 rule benchmarks:
     input:
-        scripts="measurements/benchmarks/run.py",
+        scripts=source("measurements/benchmarks/run.py"),
     log:
         "logs/benchmarks.log",
     benchmark:
@@ -13,12 +13,12 @@ rule benchmarks:
     message:
         "Measure the speeds."
     shell:
-        "python -m measurements.benchmarks.run | tee results/benchmarks.txt 2>&1 | tee {log} >&2"
+        "mkdir -p results; python -m measurements.benchmarks.run | tee results/benchmarks.txt 2>&1 | tee {log} >&2"
 
 
 rule growth:
     input:
-        scripts="measurements/benchmarks/growth.py",
+        scripts=source("measurements/benchmarks/growth.py"),
     log:
         "logs/growth.log",
     benchmark:
@@ -36,7 +36,7 @@ rule growth:
 
 rule effects:
     input:
-        scripts="measurements/benchmarks/effects.py",
+        scripts=source("measurements/benchmarks/effects.py"),
     log:
         "logs/effects.log",
     benchmark:

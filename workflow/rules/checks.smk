@@ -5,8 +5,8 @@
 rule checks:
     input:
         ensemble=rules.ensemble.output,
-        checks="workflow/checks/test_ensemble.py",
-        report="workflow/checks/conftest.py",
+        checks=source("workflow/checks/test_ensemble.py"),
+        report=source("workflow/checks/conftest.py"),
     output:
         f"{STUDY}/checks.txt",
     log:
@@ -18,7 +18,7 @@ rule checks:
     message:
         "Check the consistency of the ensemble."
     shell:
-        "(python -m pytest -p no:cacheprovider {input.checks}"
+        "(python -m pytest -p no:cacheprovider {input.checks:q}"
         " --ensemble {input.ensemble} --report {output} || [ $? -eq 1 ])"
         " 2>&1 | tee {log} >&2"
 

@@ -1,4 +1,4 @@
-# The validated scene, the paths of its files, and the sources behind each stage.
+# The paths of the files of the scene, the sources behind each stage, and what a job needs.
 
 import os
 import sys
@@ -6,8 +6,7 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from grainmodes.configuration import ConfigurationError, scene_from
-from grainmodes.cost import read_table, resources
+from grainmodes.cost import resources
 from grainmodes.parameters.figures import FIGURES, FORMS
 from grainmodes.parameters.grid import (
     CHECKPOINT_SPACING,
@@ -22,17 +21,6 @@ from grainmodes.runtime.failures import MACHINE_ERRORS, sentence
 from grainmodes.runtime.provenance import script_sources, stage_sources
 from grainmodes.runtime.workflow_run import name_to_jobs, start_run
 from measurements.accuracy import NAMES
-
-# Snakemake would merge a scene of the command line into the default one, key by key.
-if not workflow.config_settings.configfiles:
-
-    configfile: "config/default.yaml"
-
-
-try:
-    scene = scene_from(config)
-except ConfigurationError as error:
-    raise WorkflowError(f"The configuration has mistakes.\n{error}")
 
 # A run claims its folder before it plans; what only looks (-n, --summary) has no cores, and does not.
 if not workflow.subprocess_exec:
@@ -49,7 +37,6 @@ os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.envir
 
 STUDY = f"results/{scene.study}"
 LOGS = f"logs/{scene.study}"
-COSTS = read_table()
 BLOCK = "n~{n}/phi~{phi}/seeds~{seeds}.nc"
 RESPONSE = "n~{n}/phi~{phi}/kt~{kt}/seeds~{seeds}.nc"
 POINT = "n~{n}/phi~{phi}/kt~{kt}.nc"
@@ -76,12 +63,17 @@ def as_written(paths):
     return [str(p.relative_to(here) if p.is_relative_to(here) else p) for p in paths]
 
 
+def source(path):
+    """A file of the workflow as a user would write it, wherever the workflow was started."""
+    return as_written([ROOT / path])[0]
+
+
 def sources_of_accuracy(*modules):
     """Files whose edit changes what modules of `measurements/accuracy` do."""
     return as_written(
         script_sources(
-            Path("measurements/machine.py"),
-            *(Path(f"measurements/accuracy/{name}.py") for name in modules),
+            ROOT / "measurements/machine.py",
+            *(ROOT / f"measurements/accuracy/{name}.py" for name in modules),
         )
     )
 
@@ -96,6 +88,11 @@ def data_of_figure(wildcards):
     """What a figure is drawn from: the ensemble, or a stage's files of single samples."""
     source = FIGURES[wildcards.figure].source
     return rules.ensemble.output if source == "ensemble" else samples_of(source)
+
+
+def stem_of_outputs(wildcards, output):
+    """The path of pictures without their suffixes."""
+    return output[0].rpartition(".")[0]
 
 
 def checkpoint_below(wildcards, file=BLOCK):

@@ -34,7 +34,7 @@ rule figure:
     resources:
         **needs(job_of_reader),
     params:
-        stem=f"{STUDY}/figures/{{figure}}",
+        stem=stem_of_outputs,
     message:
         "Draw {wildcards.figure}."
     shell:
