@@ -13,7 +13,10 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-NS, PHIS = (256, 288), (0.86, 0.88, 0.90)
+NS, PHIS = (256, 4096), (0.86, 0.88, 0.90)
+GRAINS = (256, 288)
+"""Number of grains that have modes, so that a system of A's size is small."""
+
 KTS = (0.0, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 2.0, 10.0)
 SEEDS = 16
 JAMMING = 0.84
@@ -105,10 +108,10 @@ def _moduli(dataset: xr.Dataset) -> None:
 
 def _spectra(dataset: xr.Dataset) -> None:
     shape = [dataset.sizes[name] for name in POINT]
-    eigenvalue = np.full((*shape, 3 * NS[-1]), np.nan)
+    eigenvalue = np.full((*shape, 3 * GRAINS[-1]), np.nan)
     psi = np.full_like(eigenvalue, np.nan)
     for place in np.ndindex(*shape):
-        n, phi, kt = NS[place[0]], PHIS[place[1]], KTS[place[2]]
+        n, phi, kt = GRAINS[place[0]], PHIS[place[1]], KTS[place[2]]
         values, kind = _modes(n, phi, kt, seed=place[3])
         eigenvalue[(*place, slice(len(values)))] = values
         psi[(*place, slice(len(values)))] = kind

@@ -1,8 +1,8 @@
 """The ensemble of `claim_fixtures` with sheared harmonic grains: every claim of paper B holds.
 
 every step raises σ by g Δγ - Δγ², so that σ_th is right to order Δγ²
-an event every 0.08, bracketed to Δγ_Th in tenths of Δγ_in, in which σ falls and λ_min and g jump
-a change without event every 0.08, in which a contact opens
+an event every 0.0125, bracketed to Δγ_Th in tenths of Δγ_in, in which σ falls and λ_min and g jump
+a change without event every 0.1, in which a contact opens
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ import xarray as xr
 
 import claim_fixtures
 
-N, PHI, KT = claim_fixtures.NS[-1], 0.90, 1.0
+N, PHI, KT = claim_fixtures.NS[0], 0.90, 1.0
 PLACE = {"n": N, "phi": PHI, "kt": KT}
 STEP, SMALLEST, STRAIN = 1e-3, 1e-7, 0.4
-EVENTS = np.arange(0.0053, STRAIN, 0.08)
+EVENTS = np.arange(0.0053, STRAIN, 0.0125)
 """γ_c of the events, the same in every sample."""
-CHANGES = EVENTS[:-1] + 0.005
+CHANGES = EVENTS[:-1:8] + 0.005
 DROP = 1e-3
-JUMPS = 0.002 * np.arange(1, len(EVENTS) + 1)
+JUMPS = 3e-4 * np.arange(1, len(EVENTS) + 1)
 """Fall of g in every event."""
 UNITS = round(STEP / SMALLEST)
 
@@ -79,9 +79,9 @@ def _sample(seed: int) -> dict[str, object]:
     factor = np.random.default_rng([seed, 3]).normal(1.0, 0.02)
     before = np.searchsorted(strain, EVENTS + 0.5 * SMALLEST) - 1
     passed = np.searchsorted(before, np.arange(len(strain)), side="left")
-    g = factor * (0.3 - 0.2 * strain - 0.002 * passed)
+    g = factor * (0.3 - 0.2 * strain - 0.0003 * passed)
     stress = stress_of(strain, g) - DROP * passed
-    lowest = factor * (0.2 - 0.1 * strain) * 0.9**passed
+    lowest = factor * (0.2 - 0.1 * strain) * 0.98**passed
     changes = np.searchsorted(strain, CHANGES)
     grid = on_grid(strain)
     one, width = np.ones(len(before)), STEP / 10.0 ** np.arange(7)

@@ -17,7 +17,7 @@ def proportional(ensemble):
 
 
 def not_flat(ensemble):
-    step = 1.0 + 0.05 * (ensemble["kt"] == 1e-4)
+    step = 1.0 + 0.05 * (ensemble["kt"] == 1e-4) * claim_fixtures.noise(ensemble, 0.2)
     claim_fixtures.set_moduli(ensemble, without_noise(ensemble) * step)
 
 

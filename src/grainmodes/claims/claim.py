@@ -155,7 +155,11 @@ def _judged(function: Callable, ensemble: xr.Dataset) -> tuple[Part | None, str,
     alike = [part for part, found in zip(parts, verdicts, strict=True) if found == worst]
     same = by_certainty(alike, worst)
     verdict = NOT_TESTED if absent and worst != CONTRADICTED else worst
-    needed = absent if verdict == NOT_TESTED else needed_by(same, verdict)
+    needed = (
+        absent
+        if verdict == NOT_TESTED
+        else needed_by(same, verdict, sum(part.decidable for part in parts))
+    )
     explanation = " ".join(filter(None, (lacking, _summary(parts, same, worst), note)))
     return same[0], verdict, needed, explanation
 

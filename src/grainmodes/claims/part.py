@@ -11,7 +11,10 @@ tests judge it (`statistics.measurement`):
 A claim that holds needs every part, so that no correction is due: the part that is least sure
 decides. A claim is contradicted by one part, and the more parts it has, the more of them lie far
 away by chance: hence Holm. The levels are low, because samples are not quite normal: with a
-skewness of 0.7 a wrong verdict still has a probability of at most 5 %.
+skewness of 0.7 a wrong verdict still has a probability of at most 5 %. A share and a median of few
+samples cannot reach the second level, however far away the samples lie: the fewer samples, and the
+more parts, the less. A claim that is asked of many parts is therefore measured by means where the
+quantity has one.
 
 A part that names what makes it comparable (`needs`) is not judged: the number is shown, and what
 the claim speaks of cannot be seen in it, such as the gap between two bands in a box whose lowest
@@ -41,9 +44,6 @@ CONTRADICT_LEVEL = 0.005
 MIN_SAMPLES = 4
 """Smallest number of samples behind a verdict."""
 
-MAX_REACH = 30.0
-"""Half an interval over the distance to the limit, above which no number of samples is named."""
-
 
 class Part(NamedTuple):
     """One number of a claim: where it was measured, and the interval in which it is expected.
@@ -65,6 +65,12 @@ class Part(NamedTuple):
         value = self.measured.value
         known = not (np.isnan(value) or np.isnan(self.measured.p_at_most(value)))
         return known and self.measured.samples >= MIN_SAMPLES and not self.needs
+
+    @property
+    def without_scatter(self) -> bool:
+        """Whether all samples agree, so that the interval has no width."""
+        low, high = self.measured.interval()
+        return low == high
 
     @property
     def p_false(self) -> float:
@@ -89,6 +95,34 @@ class Part(NamedTuple):
         if np.isfinite(self.high):
             tests.append(self.measured.p_at_most(self.high))
         return min(1.0, len(tests) * min(tests, default=1.0))
+
+    def samples_needed(self, judged: int) -> float:
+        """Number of samples that would settle where the number lies, if it stayed where it is.
+
+        Where it is expected, this is a number that lets the claim hold, else one that contradicts
+        it as one of `judged` parts; ∞ where no number of samples is named.
+        """
+        if np.isnan(self.measured.p_at_most(self.measured.value)):
+            return MIN_SAMPLES
+        expected = self.margin > 0.0
+        level = HOLD_LEVEL if expected else CONTRADICT_LEVEL / max(judged, 1)
+        needed = self._samples_inside(level) if expected != self.outside else self._beyond(level)
+        return max(needed, MIN_SAMPLES, self.measured.samples + 1 if self.decidable else 0)
+
+    def _samples_inside(self, level: float) -> float:
+        """Both ends of the interval must be settled."""
+        above_low = self.measured.samples_above(self.low, level) if np.isfinite(self.low) else 0.0
+        below_high = (
+            self.measured.samples_below(self.high, level) if np.isfinite(self.high) else 0.0
+        )
+        return max(above_low, below_high)
+
+    def _beyond(self, level: float) -> float:
+        """The end that the number lies beyond must be settled; each end is one test."""
+        level /= np.isfinite([self.low, self.high]).sum()
+        if self.measured.value < self.low:
+            return self.measured.samples_below(self.low, level)
+        return self.measured.samples_above(self.high, level)
 
     @property
     def margin(self) -> float:
@@ -119,29 +153,37 @@ def _verdict(part: Part, corrected: float) -> str:
 
 
 def by_certainty(parts: list[Part], verdict: str) -> list[Part]:
-    """Parts of one verdict: contradicted ones most certain first, all others least certain."""
+    """Parts of one verdict: contradicted ones most certain first, all others least certain.
+
+    Of numbers without any scatter, such as a difference of 0 in all samples, only a bound of the
+    p-value is known: they come last.
+    """
     if verdict == CONTRADICTED:
         return sorted(parts, key=lambda part: (part.p_true, part.margin))
     return sorted(
         parts,
-        key=lambda part: (part.decidable, -np.nan_to_num(part.p_false, nan=1.0), part.margin),
+        key=lambda part: (
+            part.decidable,
+            part.without_scatter,
+            -np.nan_to_num(part.p_false, nan=1.0),
+            part.margin,
+        ),
     )
 
 
-def needed_by(parts: list[Part], verdict: str) -> str:
-    """What would decide a claim whose parts of this verdict are these, the deciding one first."""
+def needed_by(parts: list[Part], verdict: str, judged: int) -> str:
+    """What would decide a claim whose parts of this verdict are these.
+
+    Of parts that are not resolved it is the one that takes most samples.
+
+    Args:
+        judged: number of parts of the claim that are judged, for Holm's correction.
+    """
     if verdict == NOT_COMPARABLE:
         return " and ".join(dict.fromkeys(part.needs for part in parts))
-    return _samples_needed(parts[0]) if verdict == NOT_RESOLVED else ""
-
-
-def _samples_needed(part: Part) -> str:
-    """How many samples would decide, if the number stayed where it is and its interval shrank."""
-    if not part.decidable:
-        return f"{MIN_SAMPLES} samples at {part.where}"
-    samples, (low, high) = part.measured.samples, part.measured.interval()
-    reach, distance = 0.5 * (high - low), abs(part.margin)
-    if not np.isfinite(reach) or reach >= MAX_REACH * distance:
-        return f"more samples at {part.where}"
-    needed = max(samples * (reach / distance) ** 2, samples + 1.0)
-    return f"about {np.ceil(needed):.0f} samples at {part.where}"
+    if verdict != NOT_RESOLVED:
+        return ""
+    needed = [part.samples_needed(judged) for part in parts]
+    most = max(needed)
+    number = f"about {most:.0f}" if np.isfinite(most) else "more"
+    return f"{number} samples at {parts[needed.index(most)].where}"

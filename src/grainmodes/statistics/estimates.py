@@ -12,7 +12,16 @@ two numbers come from the same packings, the scatter that they share drops out.
 The error is itself measured, with S - 1 degrees of freedom, so that (value - true) / error follows
 Student's t: chance alone takes a value three errors above the true one in 10 % of the cases at
 S = 2, and in 1 % at S = 8. A number that takes two values only is not a mean but a share
-(`shares.Share`): its samples may all agree by chance, and the error is then 0.
+(`shares.Share`).
+
+S samples that agree exactly have the error 0, and tell nothing of the distribution but that all lie
+on one side of a limit. They are judged by the sign test, p = 2^(-S), and not by an error that one
+more sample may belie.
+
+Differences relative to a number that may come close to 0 in single samples, such as a modulus near
+jamming, have no useful mean: it is that of one sample. The mean of the logarithm of their size is
+moved by one sample far less, and Student's t judges it with fewer samples than the sign test takes
+to judge a median.
 """
 
 from __future__ import annotations
@@ -26,6 +35,10 @@ from scipy import special
 from grainmodes.statistics import averages
 from grainmodes.statistics.measurement import STATED_PROBABILITY
 from grainmodes.statistics.rounding import value_with_error
+from grainmodes.statistics.sample_sizes import fewest_samples, mean_settles
+
+ROUND_OFF = 1e-16
+"""Relative difference below which two numbers are equal."""
 
 
 class Estimate(NamedTuple):
@@ -54,10 +67,26 @@ class Estimate(NamedTuple):
         return self._p_of(limit - self.value)
 
     def _p_of(self, beyond: float) -> float:
-        """The p-value of a distance beyond a limit; without an error it is 0 or 1."""
+        """The p-value of a distance beyond a limit; of the sign test without an error."""
         if self.error == 0.0:
-            return 0.0 if beyond > 0.0 else 1.0
+            return 0.5**self.samples if beyond > 0.0 else 1.0
         return float(special.stdtr(self.freedom, -beyond / self.error))
+
+    def samples_above(self, limit: float, level: float) -> float:
+        """Number of samples that would settle "the true number is above `limit`" at this level."""
+        return self._samples_of(self.value - limit, level)
+
+    def samples_below(self, limit: float, level: float) -> float:
+        """Number of samples that would settle "the true number is below `limit`" at this level."""
+        return self._samples_of(limit - self.value, level)
+
+    def _samples_of(self, beyond: float, level: float) -> float:
+        if not beyond > 0.0:
+            return np.inf
+        if self.error == 0.0:
+            return np.ceil(-np.log2(level))
+        distance = beyond / (self.error * np.sqrt(self.samples))
+        return fewest_samples(lambda sizes: mean_settles(sizes, distance, level))
 
     def interval(self, probability: float = STATED_PROBABILITY) -> tuple[float, float]:
         """Value ± error times the quantile of Student's t."""
@@ -126,6 +155,20 @@ def relative_difference(values: np.ndarray, reference: np.ndarray) -> Estimate:
     """(mean of values - mean of reference) / mean of reference, (S,) each, paired by sample."""
     with np.errstate(invalid="ignore", divide="ignore"):
         return jackknife(lambda a, b: (a - b).mean() / b.mean(), values, reference)
+
+
+def log_relative_difference(values: np.ndarray, reference: np.ndarray) -> Estimate:
+    """Mean of log10(|value - reference| / |reference|), (S,) each, paired by sample.
+
+    Differences below `ROUND_OFF` count as this, and those above 1 as 1: two numbers that have
+    nothing in common do not differ the more for a small reference. Where the reference is 0 there
+    is no ratio; such samples are counted in `left_out`.
+    """
+    with np.errstate(invalid="ignore", divide="ignore"):
+        ratio = np.abs(values - reference) / np.abs(reference)
+    exists = reference != 0.0
+    size = np.where(exists, np.clip(ratio, ROUND_OFF, 1.0), np.inf)
+    return mean(np.where(np.isnan(ratio) & exists, np.nan, np.log10(size)))
 
 
 def crossing(x: np.ndarray, rows: np.ndarray) -> Estimate:

@@ -35,6 +35,15 @@ class Measurement(Protocol):
     def p_at_least(self, limit: float) -> float:
         """The p-value of "the true number is `limit` or more"."""
 
+    def samples_above(self, limit: float, level: float) -> float:
+        """Number of samples that would settle "the true number is above `limit`" at this level.
+
+        It is that of `sample_sizes.fewest_samples`; ∞ where the measured number is not above.
+        """
+
+    def samples_below(self, limit: float, level: float) -> float:
+        """The same for "the true number is below `limit`"."""
+
     def interval(self, probability: float = STATED_PROBABILITY) -> tuple[float, float]:
         """The ends of the two-sided interval of this probability."""
 

@@ -2,8 +2,8 @@
 
 A sample lies above the true median with probability 1/2, whatever the distribution. The interval of
 a median therefore ends at two of the sorted samples, and is exact. Single samples may be as far
-away as they like: a modulus near jamming is negative in some packings and tiny in others, so that
-means of its ratios are those of one sample. Six samples are the fewest that decide at 2 %.
+away as they like. Six samples are the fewest that decide at 2 %. A bootstrap would give intervals
+of the same quantity that are right for many samples only; it is not needed here.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import numpy as np
 from scipy import special
 
 from grainmodes.statistics.measurement import STATED_PROBABILITY, with_interval
+from grainmodes.statistics.shares import Share
 
 
 class Median(NamedTuple):
@@ -43,6 +44,17 @@ class Median(NamedTuple):
     def _p_of(self, beyond: int) -> float:
         return float(special.bdtrc(beyond - 1, self.samples, 0.5))
 
+    def samples_above(self, limit: float, level: float) -> float:
+        """As of a share: that of the samples above the limit must be above one half."""
+        return self._samples_of(sum(value > limit for value in self.ordered), level)
+
+    def samples_below(self, limit: float, level: float) -> float:
+        """As of a share: that of the samples below the limit must be above one half."""
+        return self._samples_of(sum(value < limit for value in self.ordered), level)
+
+    def _samples_of(self, beyond: int, level: float) -> float:
+        return Share(beyond, self.samples).samples_above(0.5, level)
+
     def interval(self, probability: float = STATED_PROBABILITY) -> tuple[float, float]:
         """From the k-th smallest sample to the k-th largest, infinite with too few samples."""
         tail = 0.5 * (1.0 - probability)
@@ -59,14 +71,3 @@ class Median(NamedTuple):
 def median(values: np.ndarray) -> Median:
     """The median of (S,) values; NaN are left out, and are not counted as such."""
     return Median(tuple(np.sort(values[~np.isnan(values)]).tolist()))
-
-
-def median_relative_difference(values: np.ndarray, reference: np.ndarray) -> Median:
-    """Median of (value - reference) / |reference| of (S,) each, paired by sample.
-
-    A sample of which the reference is 0 has no ratio, and is counted in `left_out`.
-    """
-    known = np.isfinite(values) & np.isfinite(reference)
-    used = known & (reference != 0.0)
-    ratio = (values[used] - reference[used]) / np.abs(reference[used])
-    return median(ratio)._replace(left_out=int((known & ~used).sum()))

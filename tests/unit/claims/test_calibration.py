@@ -12,7 +12,7 @@ from grainmodes.claims.part import CONTRADICTED, HOLDS, Part, verdicts_of
 from grainmodes.statistics.averages import average
 from grainmodes.statistics.estimates import Estimate
 from grainmodes.statistics.medians import Median
-from grainmodes.statistics.shares import Share
+from grainmodes.statistics.shares import Share, pooled_share
 
 TRIALS, PARTS = 2000, 3
 SIZES = (4, 8, 10, 30)
@@ -103,6 +103,52 @@ def test_a_claim_on_shares_is_rarely_judged_wrongly(size, limit):
     shares = [[Share(count, size) for count in trial] for trial in having.tolist()]
     assert in_trials(shares, low=limit)[0] <= MOST
     assert in_trials([trial[:1] for trial in shares], low=limit)[1] <= MOST
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("limit", (0.5, 0.9))
+@pytest.mark.parametrize("correlation", (0.0, 0.1))
+def test_a_claim_on_shares_of_events_is_rarely_judged_wrongly(size, limit, correlation):
+    """Samples have 1 to some 30 events, whose probability varies from sample to sample."""
+    draws = np.random.default_rng([size, int(10 * correlation)])
+    shape = (TRIALS, PARTS, size)
+    events = 1 + draws.poisson(15, shape)
+    width = (1.0 - correlation) / max(correlation, 1e-9)
+    having = draws.binomial(events, draws.beta(limit * width, (1.0 - limit) * width, shape))
+    shares = [
+        [pooled_share(map(of_events, *part)) for part in zip(*trial, strict=True)]
+        for trial in zip(having, events, strict=True)
+    ]
+    contradicted, _ = in_trials(shares, low=limit)
+    one = [trial[:1] for trial in shares]
+    assert contradicted <= MOST
+    assert in_trials(one, low=limit)[1] <= MOST
+    assert in_trials(one, high=limit)[1] <= MOST
+
+
+def of_events(having, events):
+    """(E,) of 1 and 0."""
+    return (np.arange(events) < having).astype(float)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_claim_on_the_size_of_differences_is_rarely_judged_wrongly(size):
+    """The logarithm of a normal difference has a long tail to small ones."""
+    draws = np.random.default_rng(size)
+    values = np.log10(np.abs(draws.normal(size=(TRIALS, PARTS, size))))
+    values += LIMIT - np.log10(np.exp(-0.5 * (np.log(2.0) + np.euler_gamma)))
+    assert in_trials(estimates(values), high=LIMIT)[0] <= MOST
+    values[:, 1:] -= 100.0
+    assert in_trials(estimates(values), high=LIMIT)[1] <= MOST
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_samples_that_agree_by_chance_are_rarely_judged_wrongly(size):
+    """Two values on either side of the limit: a mean of four often has no scatter at all."""
+    below = np.random.default_rng(size).random((TRIALS, PARTS, size)) < 0.5
+    values = np.where(below, LIMIT - 1.0, LIMIT + 1.0)
+    assert in_trials(estimates(values), high=LIMIT)[0] <= MOST
+    assert in_trials([trial[:1] for trial in estimates(values)], low=LIMIT)[1] <= MOST
 
 
 @pytest.mark.parametrize("size", SIZES[1:])

@@ -33,7 +33,7 @@ def test_reports_hold_every_claim(tmp_path):
 def test_the_page_names_lost_samples(tmp_path, capsys):
     path = tmp_path / "ensemble.nc"
     lost = {"spectrum": {"16,0.9,1.0,2": "no balance"}}
-    whole = claim_fixtures.ensemble().assign_coords(mode=np.arange(3 * claim_fixtures.NS[-1]))
+    whole = claim_fixtures.ensemble().assign_coords(mode=np.arange(3 * claim_fixtures.GRAINS[-1]))
     whole.assign_attrs(failures=json.dumps(lost)).to_netcdf(path)
     assert main(["claims", str(path), "-o", str(tmp_path / "claims.md")]) == 0
     sentence = "Lost samples: 1 failed in spectrum (n = 16, phi = 0.9, kt = 1, seed 2: no balance)."
@@ -44,7 +44,7 @@ def test_the_page_names_lost_samples(tmp_path, capsys):
 
 def test_the_command_prints_writes_and_refuses(tmp_path, capsys):
     path = tmp_path / "ensemble.nc"
-    modes = {"mode": np.arange(3 * claim_fixtures.NS[-1])}
+    modes = {"mode": np.arange(3 * claim_fixtures.GRAINS[-1])}
     claim_fixtures.ensemble().assign_coords(modes).to_netcdf(path)
     assert main(["claims", str(path)]) == 0
     assert capsys.readouterr().out.startswith("A1   holds")

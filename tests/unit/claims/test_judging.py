@@ -132,9 +132,12 @@ def test_the_most_certain_contradiction_decides_and_is_named():
 def test_an_unresolved_claim_names_the_samples_that_would_decide_it():
     found = claim_with({"numbers": [below_one(0.0), below_one(0.9)]})
     assert (found.verdict, found.measured) == (NOT_RESOLVED, 0.9)
-    assert found.needed == "about 45 samples at at 0.9"
+    assert found.needed == "about 70 samples at at 0.9"
     assert claim_with({"numbers": [below_one(0.9999)]}).needed == "more samples at at 0.9999"
-    assert claim_with({"numbers": [below_one(0.0, samples=3)]}).needed == "4 samples at at 0.0"
+    three = claim_with({"numbers": [below_one(0.0, samples=3)]})
+    assert three.needed == "about 4 samples at at 0.0"
+    none = claim_with({"numbers": [below_one(0.9), below_one(np.nan), below_one(0.95)]})
+    assert none.needed == "about 271 samples at at 0.95"
 
 
 def test_a_part_that_must_exist_and_does_not_leaves_a_claim_untested():

@@ -115,14 +115,17 @@ def test_the_note_has_events_with_the_same_network_before_and_after():
     ensemble["event_opened"] = 0.0 * ensemble["event_opened"]
     verdict = verdicts(ensemble)["B9"]
     assert verdict.verdict == HOLDS
-    assert "80 did both; the share" in verdict.explanation
+    assert (
+        "512 did both; the network is the same before and after in 512 of 512 events"
+        in verdict.explanation
+    )
 
 
 def test_complex_pairs_are_counted():
     ensemble = claim_fixtures_shear.ensemble()
     pairs = ensemble["event_complex_pairs_after"]
     ensemble["event_complex_pairs_after"] = pairs + (pairs["event"] == 2)
-    assert "complex pairs in 16 of 80 states after events" in verdicts(ensemble)["B11"].explanation
+    assert "complex pairs in 16 of 512 states after events" in verdicts(ensemble)["B11"].explanation
 
 
 def test_small_boxes_and_short_shears_are_not_comparable(monkeypatch):

@@ -64,12 +64,13 @@ def localised_rattlers(ensemble: xr.Dataset) -> Outcome:
     of the seeds in which most of these modes belong to a rattler in A's sense: the grain that moves
     most has at most two contacts.
 
-    Asked of: k_T/k_N in 1e-8 ... 1e-4, spectra with rattlers kept.
+    Asked of: k_T/k_N in 1e-8 ... 1e-4, spectra with rattlers kept, at N ≥ 4096, as A's Fig. 14.
 
     Criterion: More than one half of the seeds have such modes, and in more than one half of the
     seeds most of them sit on grains with at most two contacts.
     """
     samples = best_sampled(ensemble, *RATTLER_NAMES)
+    needs = enough_grains(samples.n, PAPER_GRAINS)
     existing, shares, zero = [], [], 0
     for kappa in samples.kappas(RATTLER_NAMES[0], low=WEAK_KAPPA, high=1e-4):
         phis = samples.phis(RATTLER_NAMES[0], kappa)
@@ -79,7 +80,6 @@ def localised_rattlers(ensemble: xr.Dataset) -> Outcome:
             at_phis = np.nansum(number > 0, axis=0) / np.isfinite(number).sum(axis=0)
             weak = np.nansum(on_rattlers, axis=0) / np.nansum(number, axis=0)
         having = share(np.where(np.isfinite(at_phis), at_phis >= HALF, np.nan))
-        needs = enough_grains(samples.n, PAPER_GRAINS) if having.value < HALF else ""
         where = label(kappa=kappa)
         existing.append(Part(f"seeds with one at {where}", having, low=HALF, needs=needs))
         most = share(np.where(np.isfinite(weak), weak > HALF, np.nan))

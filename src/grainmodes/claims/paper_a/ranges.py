@@ -14,6 +14,9 @@ WEAK_KAPPA = 1e-8
 TOLERANCE = 0.01
 """Relative difference of two moduli that is not visible in a figure of A."""
 
+LOG_TOLERANCE = -2.0
+"""log10 of it."""
+
 MIN_PHI = 0.85
 """φ below which single packings decide a mean: their G is near 0, or below."""
 

@@ -83,22 +83,24 @@ def gap_overlap_merger(ensemble: xr.Dataset) -> Outcome:
     The gap is log10 of the lowest translational ω over the highest rotational ω of a sample, in
     decades; it is negative where the bands overlap. From k_T/k_N = 1 on the measured number is the
     share of rotational modes above the lowest translational one. The lowest translational mode is a
-    sound wave of the box, which moves down as N^(-1/2): a gap that is open below A's N = 4096 says
-    nothing about the overlap that A sees.
+    sound wave of the box, which moves down as N^(-1/2): in a box smaller than A's a gap says
+    nothing about the gap or the overlap that A sees, whichever of the two is found.
 
-    Asked of: the largest φ with spectra; a k_T/k_N of each of the three ranges.
+    Asked of: the largest φ with spectra; a k_T/k_N of each of the three ranges; gaps at N ≥ 4096.
 
     Criterion: The gap is above 0 in 1e-10 ... 1e-8 and below 0 in 1e-6 ... 1e-2, and the share is
     above 0.9 from 1 on.
     """
     samples, phi, spectra = friction_spectra(ensemble)
     gaps = {kappa: _gap(found) for kappa, found in spectra.items()}
+    needs = enough_grains(samples.n, PAPER_GRAINS)
     parts = {
         "k_T/k_N in 1e-10 ... 1e-8": [
-            Part(f"gap at {label(phi, k)}", gaps[k], 0.0) for k in within(gaps, *SEPARATE_RANGE)
+            Part(f"gap at {label(phi, k)}", gaps[k], low=0.0, needs=needs)
+            for k in within(gaps, *SEPARATE_RANGE)
         ],
         "k_T/k_N in 1e-6 ... 1e-2": [
-            Part(f"gap at {label(phi, k)}", gaps[k], high=0.0, needs=_sound(samples.n, gaps[k]))
+            Part(f"gap at {label(phi, k)}", gaps[k], high=0.0, needs=needs)
             for k in within(gaps, *OVERLAP_RANGE)
         ],
         "k_T/k_N ≥ 1": [
@@ -112,11 +114,6 @@ def gap_overlap_merger(ensemble: xr.Dataset) -> Outcome:
 def _gap(found: Modes) -> Estimate:
     gap = per_sample(lambda r, t: np.log10(t[0] / r[-1]), found.rotational, found.translational)
     return mean(gap)
-
-
-def _sound(n: int, gap: Estimate) -> str:
-    """What a gap needs to be compared with A's, if it is open in a box smaller than A's."""
-    return enough_grains(n, PAPER_GRAINS) if gap.value > 0.0 else ""
 
 
 def _share_above(found: Modes) -> Estimate:

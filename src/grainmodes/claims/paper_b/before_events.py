@@ -6,8 +6,9 @@
     g            Curve.modulus                                              Figs. 3, 7
 
 "Before an event" means the states that lead up to it without any change of contacts, at most over
-the last few steps Δγ_in (`ensemble.curves.Approach`). Averages run over the events of each sample
-first, and then over the samples.
+the last few steps Δγ_in (`ensemble.curves.Approach`). Shares are those of all events, judged by the
+number of events and of samples (`PooledShare`). Averages run over the events of each sample first,
+and then over the samples.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from grainmodes.claims.paper_b.sheared import (
 )
 from grainmodes.claims.part import Part
 from grainmodes.ensemble.curves import Approach, Curve
+from grainmodes.statistics.shares import pooled_share
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -58,14 +60,14 @@ def jump_without_precursor(ensemble: xr.Dataset) -> Outcome:
     trends, jumps, notes = [], [], []
     for where, curves in sheared(ensemble, "curve_lowest_eigenvalue"):
         trends.append(Part(f"trend, {where}", over_samples(curves, _trend), -MAX_TREND, MAX_TREND))
-        largest = over_samples(curves, _share_of_jumps_in_large_drops)
+        largest = pooled_share(_jumps_in_large_drops(curve) for curve in curves)
         jumps.append(Part(f"jumps of the largest drops, {where}", largest, MIN_SHARE))
         changes = np.concatenate([_trends(curve) for curve in curves])
-        size, all_jumps = (over_samples(curves, f) for f in (_size_of_jump, _share_of_jumps))
+        every = pooled_share(_jumps(curve) for curve in curves)
+        size, falls = over_samples(curves, _size_of_jump), (changes < -MAX_TREND).sum()
         notes.append(
-            f"At {where} λ_min jumps in a share of {all_jumps} of all events; its relative change "
-            f"in an event is {size}; before {(changes < -MAX_TREND).sum()} of {len(changes)} "
-            f"events it falls by more than 5 %."
+            f"At {where} λ_min jumps in {every}; its relative change in an event is {size}; before "
+            f"{falls} of {len(changes)} events it falls by more than 5 %."
         )
     groups = {
         "λ_min of states before events": measured(trends),
@@ -89,7 +91,10 @@ def _trend(curve: Curve) -> float:
 
 
 def _jumps(curve: Curve) -> np.ndarray:
-    """Whether λ_min jumps, for every event with an approach of two states."""
+    """Whether λ_min jumps (1 or 0), for every event with an approach of two states.
+
+    NaN where the curve has no λ_min.
+    """
     sudden = []
     for first, last in _approaches(curve, 2):
         slope = (curve.lowest_eigenvalue[last] - curve.lowest_eigenvalue[first]) / (
@@ -97,18 +102,12 @@ def _jumps(curve: Curve) -> np.ndarray:
         )
         change = curve.lowest_eigenvalue[last + 1] - curve.lowest_eigenvalue[last]
         sudden.append(abs(change) > MIN_JUMP_RATIO * abs(slope) * curve.step[last])
-    return np.array(sudden, float)
+    known = np.isfinite(curve.lowest_eigenvalue).all()
+    return np.array(sudden, float) if known else np.full(len(sudden), np.nan)
 
 
-def _share_of_jumps(curve: Curve) -> float:
-    known = len(_approaches(curve, 2)) and np.isfinite(curve.lowest_eigenvalue).all()
-    return float(_jumps(curve).mean()) if known else np.nan
-
-
-def _share_of_jumps_in_large_drops(curve: Curve) -> float:
-    large = _is_large(curve, _approaches(curve, 2))
-    known = large.any() and np.isfinite(curve.lowest_eigenvalue).all()
-    return float(_jumps(curve)[large].mean()) if known else np.nan
+def _jumps_in_large_drops(curve: Curve) -> np.ndarray:
+    return _jumps(curve)[_is_large(curve, _approaches(curve, 2))]
 
 
 def _is_large(curve: Curve, approaches: list[Approach]) -> np.ndarray:
@@ -131,9 +130,9 @@ def no_singularity(ensemble: xr.Dataset) -> Outcome:
     """The rigidity has no singularity -(γ_c - γ)^(-1/2) below γ_c (Fig. 3).
 
     g of the states before an event is fitted by a + b (γ_c - γ) + A (γ_c - γ)^(-1/2). The measured
-    number is the share of the events of a sample in which the last term, at the last of these
-    states, is within ±1 % of the mean |g| of the sample; of all events, and of the largest tenth of
-    the drops of σ.
+    number is the share of the events in which the last term, at the last of these states, is within
+    ±1 % of the mean |g| of the sample; of all events, and of the largest tenth of the drops of σ of
+    every sample.
 
     Asked of: every point with events that five states lead up to.
 
@@ -142,8 +141,9 @@ def no_singularity(ensemble: xr.Dataset) -> Outcome:
     """
     every, largest, notes = [], [], []
     for where, curves in sheared(ensemble, "curve_g_xy"):
-        every.append(Part(f"all events, {where}", over_samples(curves, _regular), MIN_SHARE))
-        of_large = over_samples(curves, _regular_in_large_drops)
+        of_all = pooled_share(_regular(curve) for curve in curves)
+        every.append(Part(f"all events, {where}", of_all, MIN_SHARE))
+        of_large = pooled_share(_regular_in_large_drops(curve) for curve in curves)
         largest.append(Part(f"largest drops, {where}", of_large, MIN_SHARE))
         term = over_samples(curves, _mean_singular)
         notes.append(f"At {where} the mean singular term is {term} of the mean |g|.")
@@ -165,16 +165,14 @@ def _mean_singular(curve: Curve) -> float:
     return float(terms.mean()) if len(terms) else np.nan
 
 
-def _regular(curve: Curve) -> float:
+def _regular(curve: Curve) -> np.ndarray:
+    """Whether the singular term is small (1 or 0), for every event with enough states before it."""
     terms = np.abs(_singular_terms(curve))
-    return float((terms < TOLERANCE).mean()) if len(terms) else np.nan
+    return np.where(np.isfinite(terms), terms < TOLERANCE, np.nan)
 
 
-def _regular_in_large_drops(curve: Curve) -> float:
-    large = _is_large(curve, _approaches(curve, MIN_STATES))
-    if not large.any():
-        return np.nan
-    return float((np.abs(_singular_terms(curve))[large] < TOLERANCE).mean())
+def _regular_in_large_drops(curve: Curve) -> np.ndarray:
+    return _regular(curve)[_is_large(curve, _approaches(curve, MIN_STATES))]
 
 
 def _singular_term(curve: Curve, approach: Approach) -> float:

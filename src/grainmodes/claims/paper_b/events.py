@@ -1,5 +1,6 @@
 """Claims of paper B on plastic events themselves: B7, B9 and B14.
 
+Shares are those of all events, judged by the number of events and of samples (`PooledShare`).
 Averages run over the events of each sample first, and then over the samples.
 """
 
@@ -19,11 +20,14 @@ from grainmodes.claims.paper_b.sheared import (
 from grainmodes.claims.part import Part
 from grainmodes.claims.samples import Samples, label
 from grainmodes.statistics.estimates import mean
+from grainmodes.statistics.shares import pooled_share
 
 if TYPE_CHECKING:
     import xarray as xr
 
 POLE_NAMES = ("event_quadrupole_rank", "event_quadrupole", "event_other_multipoles")
+
+HALF = 0.5
 
 MAX_RANK = 0.05
 """Rank of p_2 among permutations up to which the rotations are not at random."""
@@ -62,7 +66,7 @@ def quadrupole_of_rotations(ensemble) -> Outcome:
         )
         beyond = np.where(np.isfinite(rank), rank <= MAX_RANK, np.nan)
         where = label(*point)
-        ordered.append(Part(f"ordered, {where}", mean(_share(beyond)), 0.5, needs=needs))
+        ordered.append(Part(f"ordered, {where}", pooled_share(beyond), HALF, needs=needs))
         more = mean(_by_sample(quadrupole - others))
         excess.append(Part(f"p_2 - other p_m, {where}", more, 0.0, needs=needs))
         notes.append(
@@ -144,18 +148,11 @@ def contacts_at_events(ensemble) -> Outcome:
         changed, lasting = (
             np.where(happened, sum(counts) > 0, np.nan) for counts in (changes, changes[:2])
         )
-        parts.append(Part(label(*point), mean(_share(changed)), MIN_SHARE))
+        parts.append(Part(label(*point), pooled_share(changed), MIN_SHARE))
         opened, closed, again = (int(counts[happened].sum()) for counts in changes)
         notes.append(
             f"In {happened.sum()} events at {label(*point)} {opened} contacts opened, "
-            f"{closed} closed and {again} did both; the share of the events of a sample with the "
-            f"same network before and after is {mean(1.0 - _share(lasting))}."
+            f"{closed} closed and {again} did both; the network is the same before and "
+            f"after in {pooled_share(1.0 - lasting)}."
         )
     return Outcome({"events": measured(parts)}, " ".join(notes))
-
-
-def _share(happened: np.ndarray) -> np.ndarray:
-    """Share of each sample, (S,), from (S, E) of 1 and 0, NaN where there is no event."""
-    known = np.isfinite(happened).sum(axis=1)
-    with np.errstate(invalid="ignore"):
-        return np.where(known > 0, np.nansum(happened, axis=1) / known, np.nan)

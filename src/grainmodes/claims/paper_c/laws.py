@@ -22,7 +22,7 @@ from grainmodes.statistics.estimates import Estimate, mean
 from grainmodes.statistics.shares import share
 
 MIN_SHARE = 0.5
-"""Share of the samples that must have a pair in some state."""
+"""Share of the samples from which on pairs are the rule."""
 
 MAX_SHARE = 0.02
 """Share of states below which a sample counts as one without pairs."""
@@ -60,14 +60,15 @@ def smoothed_is_unstable(ensemble) -> Outcome:
 def sharp_is_stable(ensemble) -> Outcome:
     """Harmonic grains with the sharp Coulomb law do not have the instability (Sec. VIII).
 
-    These are the share of the states in which J has complex pairs if springs at their threshold
-    stick, and the largest growth rate over ω_i among the released states of a sample that have
-    pairs if these springs slip.
+    These are the share of the samples in which J has complex pairs in 2 % of the states or more if
+    springs at their threshold stick, and the largest growth rate over ω_i among the released states
+    of a sample that have pairs if these springs slip. Samples are counted, and not states: a pair
+    lives through many states of a sample.
 
     Asked of: every point at which laws are compared.
 
-    Criterion: Fewer than 2 % of the states have pairs if springs stick, and released states grow at
-    less than 0.1 ω_i.
+    Criterion: In less than one half of the samples 2 % of the states or more have pairs if springs
+    stick, and released states grow at less than 0.1 ω_i.
     """
     samples, points = _harmonic(ensemble, "sharp_coulomb")
     parts, notes = [], []
@@ -76,7 +77,8 @@ def sharp_is_stable(ensemble) -> Outcome:
             _by_state(samples, name, "sharp_coulomb", point)
             for name in ("pairs_sticking", "pairs_slipping")
         )
-        parts.append(Part(f"sticking, {label(*point)}", mean(_share(sticking)), high=MAX_SHARE))
+        having = share((_share(sticking) >= MAX_SHARE).astype(float))
+        parts.append(Part(f"sticking, {label(*point)}", having, high=MIN_SHARE))
         ratio = _ratio(samples, "sharp_coulomb", point)
         largest = np.where(np.isfinite(ratio), ratio, -np.inf).max(axis=1)
         growth = Part(

@@ -25,6 +25,8 @@ from grainmodes.statistics.shares import share
 EXPONENT, EXPONENT_TOLERANCE = 0.5, 0.01
 """The exponent of C (21), and the largest difference of a measured one to it."""
 
+HALF = 0.5
+
 MIN_PRODUCT = 0.999
 """Scalar product above which two eigenvectors count as parallel; C's figures resolve less."""
 
@@ -33,13 +35,14 @@ MIN_PRODUCT = 0.999
 def born_under_shear(ensemble) -> Outcome:
     """Complex pairs are born under quasistatic shear from states that have none (Fig. 1).
 
-    These are the number of pairs in the first state, and the share of the samples in which pairs
+    These are the share of the samples with a pair in the first state, and of those in which pairs
     are born: one such sample shows that they exist. The note has the births per unit of strain and
     per grain for every N.
 
     Asked of: every N and point with tracks of complex pairs.
 
-    Criterion: The first state has no pair, and pairs are born in some of the samples.
+    Criterion: The first state has a pair in less than one half of the samples, and pairs are born
+    in some of them.
     """
     parts, notes = [], []
     for samples in samples_by_size(ensemble, "pair_count", "track_count", "pair_strain"):
@@ -47,7 +50,7 @@ def born_under_shear(ensemble) -> Outcome:
             pairs, strain = (samples.values(f"pair_{n}", *point) for n in ("count", "strain"))
             births = samples.values("track_count", *point)
             where = f"N = {samples.n}, {label(*point)}"
-            parts.append(Part(f"first state, {where}", mean(pairs[:, 0]), -0.5, 0.5))
+            parts.append(Part(f"first state, {where}", share(_flags(pairs[:, 0])), high=HALF))
             parts.append(Part(f"samples with births, {where}", share(_flags(births)), low=0.0))
             per_strain = mean(births / np.fmax.reduce(strain, axis=1) / samples.n)
             notes.append(
@@ -57,9 +60,9 @@ def born_under_shear(ensemble) -> Outcome:
     return Outcome({"tracks of complex pairs": parts}, " ".join(notes))
 
 
-def _flags(births: np.ndarray) -> np.ndarray:
-    """Whether a sample has births, (S,) of 1 and 0, NaN where it is not known."""
-    return np.where(np.isfinite(births), births > 0, np.nan)
+def _flags(counts: np.ndarray) -> np.ndarray:
+    """Whether a sample has any, (S,) of 1 and 0, NaN where it is not known."""
+    return np.where(np.isfinite(counts), counts > 0, np.nan)
 
 
 def _last(pairs: np.ndarray) -> np.ndarray:
