@@ -107,7 +107,9 @@ STAGES = {
         (*GRAINS, "phi_jamming"),
     ),
     "rigidity": of_packings(lambda block: rigidity_block(block, WEAK, Rattlers())),
-    "step strain": of_packings(lambda block: step_strain_block(block, WEAK, StepStrain())),
+    "step strain": of_packings(
+        lambda block: step_strain_block(block, WEAK, Rattlers(), StepStrain())
+    ),
     "spectrum": of_packings(lambda block: spectrum_block(block, WEAK, Rattlers(), "modes", MODES)),
     "rattlers": of_packings(lambda block: rattlers_block(block, WEAK, "modes", MODES)),
     "hessian": of_packings(lambda block: hessian_block(block, WEAK, Rattlers(), MODES)),

@@ -12,7 +12,7 @@ from grainmodes.kernels.laws import Hertz, Interaction
 from grainmodes.kernels.neighbours import FRACTION_UNIT
 from grainmodes.packing.forces import energy, net_force, stress
 from grainmodes.packing.state import Packing, PackingError
-from grainmodes.parameters.law import ContactLaw
+from grainmodes.parameters.law import ContactLaw, Rattlers
 from grainmodes.parameters.strain import Shear, StepStrain
 from grainmodes.protocols.shear import strain_step
 from grainmodes.protocols.shear.first_event import accepted_steps
@@ -124,7 +124,7 @@ def test_a_sample_whose_dynamics_breaks_down_is_a_failed_row():
     ]
     packings = compute_block(range(1), rows.__getitem__, {"n": 16, "phi": 0.9})
     step = StepStrain(relaxation="damped", time_step=1.0)
-    found = step_strain_block(packings, ContactLaw(kt=1.0), step)
+    found = step_strain_block(packings, ContactLaw(kt=1.0), Rattlers(), step)
     assert found.variables["converged"].tolist() == [0]
     assert "take a shorter one" in found.attributes["failures"]["step_strain"]["0"]
 

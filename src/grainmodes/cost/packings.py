@@ -19,6 +19,7 @@ from grainmodes.parameters.compression import PREPARATIONS
 from grainmodes.parameters.grid import (
     CHECKPOINT_SPACING,
     LOWEST_CHECKPOINT,
+    Point,
     checkpoint_at_or_below,
     checkpoints_up_to,
     parse_seeds,
@@ -39,40 +40,43 @@ def packings(scene: Scene, table: Table, n: int) -> Iterator[Item]:
         if files:
             climbs = [
                 [
-                    checkpoint_job(scene, table, stage.reads, n, phi, file.samples)
+                    checkpoint_job(scene, table, stage.reads, Point(n, phi, file.kt), file.samples)
                     for phi in checkpoints_up_to(file.phi)
                 ]
                 for file in top
             ]
             yield Item.from_chains(stage.reads, None, n, climbs, table)
-            jobs = [packing_job(scene, table, stage.name, n, f.phi, f.samples) for f in files]
+            jobs = [
+                packing_job(scene, table, stage.name, Point(n, file.phi, file.kt), file.samples)
+                for file in files
+            ]
             yield Item.from_chains(stage.name, None, n, [[job] for job in jobs], table)
 
 
-def checkpoint_job(scene: Scene, table: Table, stage: str, n: int, phi: float, samples: int) -> Job:
+def checkpoint_job(scene: Scene, table: Table, stage: str, point: Point, samples: int) -> Job:
     """The compression to the checkpoint φ from the one below it, or from random placement."""
-    below = round(phi - CHECKPOINT_SPACING, 12)
-    start = 0.0 if below < LOWEST_CHECKPOINT else _behind(scene, table, stage, below)
-    part = _behind(scene, table, stage, phi) - start
-    return Job.from_units(
-        table, {TRAJECTORY[stage]: part}, n, samples, n * table.disk["trajectory"]
-    )
+    below = replace(point, phi=round(point.phi - CHECKPOINT_SPACING, 12))
+    start = 0.0 if below.phi < LOWEST_CHECKPOINT else _behind(scene, table, stage, below)
+    part = _behind(scene, table, stage, point) - start
+    disk = point.n * table.disk["trajectory"]
+    return Job.from_units(table, {TRAJECTORY[stage]: part}, point.n, samples, disk)
 
 
-def packing_job(scene: Scene, table: Table, stage: str, n: int, phi: float, samples: int) -> Job:
+def packing_job(scene: Scene, table: Table, stage: str, point: Point, samples: int) -> Job:
     """From the checkpoint below φ to φ, and into force balance."""
-    read = STAGES[stage].reads
-    below, above = (_behind(scene, table, read, at) for at in (checkpoint_at_or_below(phi), phi))
+    read, n = STAGES[stage].reads, point.n
+    start = replace(point, phi=checkpoint_at_or_below(point.phi))
+    below, above = (_behind(scene, table, read, at) for at in (start, point))
     job = Job.from_units(table, {stage: 1.0}, n, samples, n * table.disk["packing"])
     climb = samples * (above - below) * table.growth_law(TRAJECTORY[read]).seconds_at(n)
     return replace(job, seconds=job.seconds + climb)
 
 
-def _behind(scene: Scene, table: Table, stage: str, phi: float) -> float:
+def _behind(scene: Scene, table: Table, stage: str, point: Point) -> float:
     """The part of a usual trajectory, in its time, that is behind a compression at φ."""
     with_friction = STAGES[stage].needs_friction
-    slowdown = table.slowdown(scene.protocol.compression, with_friction)
-    return slowdown * table.share(phi, with_friction)
+    slowdown = table.slowdown(scene.protocol.compression, with_friction, point.kt)
+    return slowdown * table.share(point.phi, with_friction)
 
 
 class File(NamedTuple):

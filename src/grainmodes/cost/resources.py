@@ -47,9 +47,9 @@ def stage_job(scene: Scene, table: Table, stage: str, point: Point, samples: int
     A spectrum at a point that requests none has all modes, as `Scene.settings` says.
     """
     if stage in TRAJECTORY:
-        return checkpoint_job(scene, table, stage, point.n, point.phi, samples)
+        return checkpoint_job(scene, table, stage, point, samples)
     if not STAGES[stage].observable:
-        return packing_job(scene, table, stage, point.n, point.phi, samples)
+        return packing_job(scene, table, stage, point, samples)
     observables = dict(scene.grid_at(point.n, point.phi, point.kt).observables)
     if observables["spectrum"] == "none":
         observables["spectrum"] = "modes"

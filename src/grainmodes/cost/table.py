@@ -11,6 +11,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -74,11 +75,17 @@ class Table:
         (low, start), (high, stop) = next((p for p in pairs if phi <= p[1][0]), pairs[-1])
         return start + (stop - start) * (phi - low) / (high - low)
 
-    def slowdown(self, compression: Compression, with_friction: bool = False) -> float:
-        """Factor on the time of a trajectory for other choices than the default ones."""
+    def slowdown(
+        self, compression: Compression, with_friction: bool = False, kt: float = 0.0
+    ) -> float:
+        """Factor on the time of a trajectory for other choices than the default ones.
+
+        Above k_T = k_N the time step of the compression with friction is shorter.
+        """
         steps = compression.phi_step / self.compression["phi_step"]
         if with_friction:
-            return steps ** self.compression["frictional_step_exponent"]
+            shorter = math.sqrt(max(1.0, kt))
+            return shorter * steps ** self.compression["frictional_step_exponent"]
         return self.compression[compression.relaxation] * steps ** self.compression["step_exponent"]
 
 

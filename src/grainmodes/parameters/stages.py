@@ -77,7 +77,7 @@ ENTRIES = (
         "Rigidity from a simulated and relaxed step strain.",
         "grainmodes.stages.step_strain:step_strain_block",
         "step_strain",
-        arguments={"step": "protocol.step_strain"},
+        arguments={"rattlers": "protocol.rattlers", "step": "protocol.step_strain"},
         default=True,
     ),
     Stage(

@@ -43,7 +43,7 @@ def seconds_per_seed(
     n, phi, kt = point
     last = packings_stage(preparation)
     climb = table.laws[TRAJECTORY[last.reads]].seconds_at(n)
-    climb *= table.slowdown(protocol.compression, last.needs_friction)
+    climb *= table.slowdown(protocol.compression, last.needs_friction, kt)
     packing = climb * table.share(phi, last.needs_friction)
     packing += table.growth_law(last.name).seconds_at(n)
     stage = "rigidity" if kind == "none" else "spectrum"

@@ -13,10 +13,12 @@ from grainmodes.stages.rows import response_block
 from grainmodes.stages.samples import jammed_packing, springs_at_rest
 
 
-def step_strain_block(packings: Block, law: ContactLaw, step: StepStrain) -> Block:
+def step_strain_block(
+    packings: Block, law: ContactLaw, rattlers: Rattlers, step: StepStrain
+) -> Block:
     """g of every packing from step strains, relaxed by the full non-linear forces."""
     interaction = Interaction.from_law(law)
-    threshold = Rattlers().largest(law, springs_at_rest(packings))
+    threshold = rattlers.largest(law, springs_at_rest(packings))
 
     def sample(number: int) -> dict[str, object]:
         packing, jammed = jammed_packing(packings, number, interaction)
@@ -41,5 +43,5 @@ def step_strain_block(packings: Block, law: ContactLaw, step: StepStrain) -> Blo
             "converged": True,
         }
 
-    config = {"law": asdict(law), "step_strain": asdict(step)}
+    config = {"law": asdict(law), "rattlers": asdict(rattlers), "step_strain": asdict(step)}
     return response_block(packings, "step_strain", config, law, sample)

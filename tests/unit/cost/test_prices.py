@@ -39,10 +39,20 @@ def test_a_trajectory_ends_at_its_highest_fraction():
     )
 
 
+@pytest.mark.parametrize(("kt", "factor"), [(0.5, 1.0), (1.0, 1.0), (4.0, 2.0), (9.0, 3.0)])
+def test_springs_stiffer_than_the_normal_ones_take_shorter_steps(kt, factor):
+    """As `protocols.compression.frictional_trajectory` chooses them."""
+    grid = {"preparation": "frictional", "kt": [1.0]}
+    at_one = seconds_of_stage(scene_with(grid), "compress_with_friction")
+    found = seconds_of_stage(scene_with(grid | {"kt": [kt]}), "compress_with_friction")
+    assert found == pytest.approx(factor * at_one)
+
+
 def test_other_compressions_cost_more():
     assert TABLE.slowdown(Compression()) == 1.0
     assert TABLE.slowdown(Compression(phi_step=1e-3)) == pytest.approx(1 / 5.5, rel=0.01)
     assert TABLE.slowdown(Compression(relaxation="fire")) > 50
+    assert TABLE.slowdown(Compression(), kt=4.0) == 1.0
     fire = {"compression": {"relaxation": "fire"}}
     assert seconds_of_stage(scene_with({}, protocol=fire), "compress") > 50 * seconds_of_stage(
         scene_with({}), "compress"

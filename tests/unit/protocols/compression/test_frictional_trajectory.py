@@ -150,7 +150,7 @@ def test_theory_is_simulation_although_grains_with_two_contacts_carry_load():
     """Z_Th = 2 of the scene would remove grains that friction holds."""
     block = packings(HARMONIC, 0.8, n=24)
     theory = rigidity_block(block, HARMONIC, Rattlers(2))
-    simulation = step_strain_block(block, HARMONIC, StepStrain())
+    simulation = step_strain_block(block, HARMONIC, Rattlers(), StepStrain())
     assert theory.attributes["failures"] == {} == simulation.attributes["failures"]
     made = [jammed_packing(block, number, press_of(HARMONIC).interaction)[0] for number in (0, 1)]
     assert any(np.any(rattlers(p, 2) & ~rattlers(p, 1)) for p in made)
