@@ -6,6 +6,7 @@ import json
 import numpy as np
 
 import claim_fixtures
+from edited_files import edited
 from grainmodes.claims import check, report
 from grainmodes.cli import main
 
@@ -35,6 +36,8 @@ def test_the_page_names_lost_samples(tmp_path, capsys):
     lost = {"spectrum": {"16,0.9,1.0,2": "no balance"}}
     whole = claim_fixtures.ensemble().assign_coords(mode=np.arange(3 * claim_fixtures.GRAINS[-1]))
     whole.assign_attrs(failures=json.dumps(lost)).to_netcdf(path)
+    with edited(path):
+        pass
     assert main(["claims", str(path), "-o", str(tmp_path / "claims.md")]) == 0
     sentence = "Lost samples: 1 failed in spectrum (n = 16, phi = 0.9, kt = 1, seed 2: no balance)."
     assert sentence in (tmp_path / "claims.md").read_text(encoding="utf-8").split("\n\n|")[0]
@@ -46,6 +49,8 @@ def test_the_command_prints_writes_and_refuses(tmp_path, capsys):
     path = tmp_path / "ensemble.nc"
     modes = {"mode": np.arange(3 * claim_fixtures.GRAINS[-1])}
     claim_fixtures.ensemble().assign_coords(modes).to_netcdf(path)
+    with edited(path):
+        pass
     assert main(["claims", str(path)]) == 0
     assert capsys.readouterr().out.startswith("A1   holds")
     assert main(["claims", str(path), "-o", str(tmp_path / "a.md"), str(tmp_path / "a.csv")]) == 0
