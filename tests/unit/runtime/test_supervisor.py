@@ -17,13 +17,14 @@ from grainmodes.runtime.processes import Process
 from grainmodes.runtime.supervisor import WORKFLOW
 
 COMMAND = """
-import sys
+import signal, sys
 from pathlib import Path
 from grainmodes.runtime.supervisor import supervised
 
 def run():
 {body}
 
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # where the tests run under `nohup`
 sys.exit(supervised(run, "grainmodes test", [Path(sys.argv[1])]))
 """
 
