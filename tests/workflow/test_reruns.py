@@ -108,4 +108,4 @@ def test_another_kind_of_spectrum_runs_spectra_alone(study):
 
 def test_a_changed_setting_runs_its_stages(study):
     study.write_scene(SCENE | {"protocol": SCENE["protocol"] | {"rattlers": {"threshold": 1}}})
-    assert study.planned() == {"rigidity": 4, "spectrum": 4} | AFTER_POINTS
+    assert study.planned() == {"rigidity": 4, "step_strain": 4, "spectrum": 4} | AFTER_POINTS

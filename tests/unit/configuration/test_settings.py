@@ -27,7 +27,15 @@ DEPENDENCE = {
     "contact_law.tangential": ("elastic_force", set(STAGES) - {"compress", "equilibrate"}),
     "protocol.rattlers.threshold": (
         1,
-        {"rigidity", "fields", "claim_diagnostics", "spectrum", "spectrum_hessian", "ensemble"},
+        {
+            "rigidity",
+            "step_strain",
+            "fields",
+            "claim_diagnostics",
+            "spectrum",
+            "spectrum_hessian",
+            "ensemble",
+        },
     ),
     "protocol.step_strain.strain": (
         1e-5,
