@@ -13,6 +13,7 @@
 
 include: "workflow/rules/scene.smk"
 include: "workflow/rules/common.smk"
+include: "workflow/rules/jobs.smk"
 include: "workflow/rules/packings.smk"
 include: "workflow/rules/response.smk"
 include: "workflow/rules/ensembles.smk"

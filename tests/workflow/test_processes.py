@@ -10,6 +10,8 @@ import uuid
 import psutil
 import pytest
 
+from marked_processes import marked_processes
+
 from .conftest import INSTALLED, Study
 
 MAKE_STUDY = [sys.executable, "workflow/scripts/study.py"]
@@ -35,15 +37,7 @@ class Run:
 
     def alive(self) -> list[psutil.Process]:
         """Its processes."""
-        found = []
-        for process in psutil.process_iter():
-            try:
-                marked = process.environ().get("MARKED") == self.word
-                if marked and process.status() != psutil.STATUS_ZOMBIE:
-                    found.append(process)
-            except psutil.Error:
-                continue
-        return found
+        return marked_processes(self.word)
 
     def wait_for_job(self, command: str) -> None:
         """Wait until a job runs a `grainmodes` command."""

@@ -1,4 +1,4 @@
-# The paths of the files of the scene, the sources behind each stage, and what a job needs.
+# The paths of the files of the scene, and the sources behind each stage.
 
 import os
 import sys
@@ -6,15 +6,12 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from grainmodes.cost import resources
 from grainmodes.parameters.figures import FIGURES, FORMS
 from grainmodes.parameters.grid import (
     CHECKPOINT_SPACING,
     LOWEST_CHECKPOINT,
-    Point,
     checkpoint_at_or_below,
     format_value,
-    parse_seeds,
 )
 from grainmodes.parameters.stages import STAGES, responses
 from grainmodes.runtime.failures import MACHINE_ERRORS, sentence
@@ -36,7 +33,6 @@ if workflow.is_main_process and resources_given and not workflow.output_settings
 os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 
 STUDY = f"results/{scene.study}"
-LOGS = f"logs/{scene.study}"
 BLOCK = "n~{n}/phi~{phi}/seeds~{seeds}.nc"
 RESPONSE = "n~{n}/phi~{phi}/kt~{kt}/seeds~{seeds}.nc"
 POINT = "n~{n}/phi~{phi}/kt~{kt}.nc"
@@ -140,69 +136,6 @@ def blocks_of_point(wildcards):
     files = [packings_file(wildcards), *(f"{STUDY}/{folder}/{RESPONSE}" for folder in folders)]
     single = [f"{STUDY}/{stage.output}/{POINT}" for stage in stages if stage.single_sample]
     return expand(files, seeds=scene.blocks_of(*point), **names) + expand(single, **names)
-
-
-def log_of(rule, file=""):
-    """Where a job keeps what it prints; its benchmark lies beside it.
-
-    Neither lies among the results, whose bytes are the same in every run.
-    """
-    return f"{LOGS}/{rule}{'/' if file else ''}{file.removesuffix('.nc')}.log"
-
-
-def benchmark_of(rule, file=""):
-    """Where Snakemake writes what a job took: time, memory, disk."""
-    return f"{log_of(rule, file).removesuffix('.log')}.tsv"
-
-
-def job_of_stage(name):
-    """Wildcards → what the job of a stage costs; packings without friction have no k_T."""
-    single = STAGES[name].single_sample
-
-    def job(wildcards):
-        point = Point(int(wildcards.n), float(wildcards.phi), float(wildcards.get("kt", 0.0)))
-        samples = 1 if single else len(parse_seeds(wildcards.seeds))
-        return resources.stage_job(scene, COSTS, name, point, samples)
-
-    return job
-
-
-def job_of_point(wildcards):
-    """What it costs to gather a point."""
-    files = len(blocks_of_point(wildcards))
-    return resources.gather_job(scene, COSTS, [Point(*point_of(wildcards))], files)
-
-
-def job_of_ensemble(wildcards):
-    """What it costs to gather all points."""
-    return resources.gather_job(scene, COSTS, scene.points, len(scene.points))
-
-
-def job_of_reader(wildcards):
-    """What it costs to read the ensemble."""
-    return resources.reader_job(scene, COSTS)
-
-
-def job_of_measurement(n, seconds):
-    """Wildcards → what it costs to measure speeds up to n grains, for so long."""
-    return lambda wildcards: resources.measurement_job(COSTS, n, seconds)
-
-
-def threads_for(job):
-    """`threads` of a rule whose jobs cost so much."""
-    return lambda wildcards: resources.threads(job(wildcards))
-
-
-def needs(job):
-    """`resources` of a rule whose jobs cost so much; twice as much at every further attempt."""
-    return {
-        "mem_mb": lambda wildcards, threads, attempt: resources.megabytes(
-            job(wildcards), COSTS, threads, attempt
-        ),
-        "runtime": lambda wildcards, threads, attempt: resources.minutes(
-            job(wildcards), COSTS, threads, attempt
-        ),
-    }
 
 
 def block_read_by(stage):

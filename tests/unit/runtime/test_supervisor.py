@@ -15,6 +15,7 @@ import pytest
 from grainmodes.runtime.partial_files import partial_path, remove_partial_files_in
 from grainmodes.runtime.processes import Process
 from grainmodes.runtime.supervisor import WORKFLOW
+from marked_processes import marked_processes
 
 COMMAND = """
 import signal, sys
@@ -75,15 +76,7 @@ class Command:
 
     def alive(self) -> list[psutil.Process]:
         """Its processes that live."""
-        found = []
-        for process in psutil.process_iter():
-            try:
-                marked = process.environ().get("MARKED") == self.word
-                if marked and process.status() != psutil.STATUS_ZOMBIE:
-                    found.append(process)
-            except psutil.Error:
-                continue
-        return sorted(found, key=lambda process: process.pid)
+        return marked_processes(self.word)
 
     def end(self) -> tuple[int, str]:
         """Its exit status and what it said, once all of its processes have ended."""
